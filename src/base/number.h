@@ -1,0 +1,66 @@
+#pragma once
+// Number types a formula is written over: double (reference), xsimd batches (fast), ceres::Jet (derivatives), 50 digits
+// (judge). These few functions are what a formula needs beyond the arithmetic that all four share.
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <xsimd/xsimd.hpp>
+
+namespace gonio {
+
+using FloatLanes = xsimd::batch<float>;
+using DoubleLanes = xsimd::batch<double>;
+
+template <class T>
+struct is_lanes : std::false_type {};
+template <class S, class A>
+struct is_lanes<xsimd::batch<S, A>> : std::true_type {};
+template <class T>
+inline constexpr bool is_lanes_v = is_lanes<T>::value;
+
+/// The type behind lanes (float or double); the type itself otherwise.
+template <class T>
+struct scalar {
+  using type = T;
+};
+template <class S, class A>
+struct scalar<xsimd::batch<S, A>> {
+  using type = S;
+};
+template <class T>
+using scalar_t = typename scalar<T>::type;
+
+template <class T>
+T select(bool yes, const T& a, const T& b) {
+  return yes ? a : b;
+}
+using xsimd::select;
+
+inline bool any(bool yes) { return yes; }
+using xsimd::any;
+
+template <class T>
+T square(const T& x) {
+  return x * x;
+}
+
+template <class T>
+T smaller_of(const T& a, const T& b) {
+  return select(a < b, a, b);
+}
+template <class T>
+T larger_of(const T& a, const T& b) {
+  return select(a > b, a, b);
+}
+
+/// The number without its derivatives (for choosing branches and nodes, which carry none).
+template <class T>
+  requires(std::is_floating_point_v<T> || is_lanes_v<T>)
+T value_of(const T& x) {
+  return x;
+}
+
+template <class T>
+inline const T kPi = T(3.14159265358979323846);
+
+}  // namespace gonio

@@ -1,0 +1,67 @@
+#pragma once
+// brdf: the reflection models, each written once over its number type, their sampling and the list of them.
+#include "base/number.h"
+
+namespace gonio {
+
+/// What an isotropic reflection model needs of a pair of directions: i towards the light, o towards the eye, both away
+/// from the surface; h = i + o. Tangents come from components: a cosine near 1 has lost the angle (at alpha = 1e-4: 1e-8
+/// in double, factors in float), so it is never turned back into a sine.
+template <class T>
+struct Directions {
+  T cos_i, cos_o;    ///< with the mean normal, > 0
+  T cos_d;           ///< half vector with either direction
+  T tan2_h;          ///< half vector with the mean normal
+  T tan2_i, tan2_o;  ///< directions with the mean normal
+
+  T cos_h() const { return (cos_i + cos_o) / (T(2) * cos_d); }
+};
+
+/// From unit vectors in the surface's frame (z = mean normal).
+template <class T>
+Directions<T> reduce(const T& ix, const T& iy, const T& iz, const T& ox, const T& oy, const T& oz) {
+  using std::sqrt;
+  const T hx = ix + ox, hy = iy + oy, hz = iz + oz;
+  const T h_xy2 = square(hx) + square(hy);
+  return {iz,
+          oz,
+          T(0.5) * sqrt(h_xy2 + square(hz)),  // |i + o| = 2 cos_d
+          h_xy2 / square(hz),
+          (square(ix) + square(iy)) / square(iz),
+          (square(ox) + square(oy)) / square(oz)};
+}
+
+/// Sine and cosine of an angle in degrees, 0 to 90: taken on the side of 45° where nothing is lost.
+template <class T>
+T sin_deg(const T& angle_deg);
+template <class T>
+T cos_deg(const T& angle_deg) {
+  using std::cos, std::sin;
+  return angle_deg <= T(45) ? T(cos(angle_deg * (kPi<T> / T(180)))) : T(sin((T(90) - angle_deg) * (kPi<T> / T(180))));
+}
+template <class T>
+T sin_deg(const T& angle_deg) {
+  using std::cos, std::sin;
+  return angle_deg <= T(45) ? T(sin(angle_deg * (kPi<T> / T(180)))) : T(cos((T(90) - angle_deg) * (kPi<T> / T(180))));
+}
+
+/// From angles in degrees: zenith angles 0 <= theta < 90, phi = phi_o - phi_i (180 = mirror side). The component of i + o
+/// along the plane of incidence, sin_i - sin_o·cos δ with δ = phi - 180°, is formed from differences of the angles:
+///   u² = (sin_i - sin_o)² + 4 sin_i sin_o sin²(δ/2), w = cos_i + cos_o, tan²θ_h = u²/w², 4cos²θ_d = u² + w².
+template <class T>
+Directions<T> directions_from_deg(const T& theta_i_deg, const T& theta_o_deg, const T& phi_deg) {
+  using std::abs, std::cos, std::fmod, std::sin, std::sqrt;
+  const T to_radians = kPi<T> / T(180);
+  T delta_deg = abs(fmod(phi_deg, T(360)));
+  delta_deg = abs(delta_deg - T(180));
+  const T sin_i = sin_deg(theta_i_deg), sin_o = sin_deg(theta_o_deg);
+  const T cos_i = cos_deg(theta_i_deg), cos_o = cos_deg(theta_o_deg);
+  const T half_sum = T(0.5) * ((T(90) - theta_i_deg) + (T(90) - theta_o_deg));  // 90° - mean: its sine is the mean's cosine
+  const T sine_difference =
+      T(2) * sin(half_sum * to_radians) * sin(T(0.5) * (theta_i_deg - theta_o_deg) * to_radians);
+  const T u2 = square(sine_difference) + T(4) * sin_i * sin_o * square(T(sin(T(0.5) * delta_deg * to_radians)));
+  const T w = cos_i + cos_o;
+  return {cos_i, cos_o, T(0.5) * T(sqrt(u2 + square(w))), u2 / square(w), square(sin_i / cos_i), square(sin_o / cos_o)};
+}
+
+}  // namespace gonio

@@ -1,0 +1,9 @@
+#pragma once
+#include "base/number.h"
+
+namespace gonio {
+
+/// Lambert's diffuse reflector: f = kd/π. It has no lobe; kd (default 1) is its directional reflectance at every angle.
+struct Lambert {};
+
+}  // namespace gonio

@@ -1,0 +1,41 @@
+#include "brdf/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gonio {
+
+double sampling_alpha(const Lobe<double>& lobe, double wavelength_um) {
+  if (const auto* one = std::get_if<PseudoRealistic<double>>(&lobe)) return std::sqrt(2.0) * one->slope_rms;
+  if (const auto* one = std::get_if<TorranceSparrow<double>>(&lobe)) return one->alpha;
+  if (const auto* one = std::get_if<BeckmannKirchhoff<double>>(&lobe)) {
+    const double diffraction = wavelength_um / (kPi<double> * one->correlation_um);
+    return std::max(2 * one->sigma_um / one->correlation_um, diffraction);
+  }
+  return 1;
+}
+
+std::optional<DirectionSample> sample_half_vector(double alpha, const LocalDirection& o, double u1, double u2) {
+  const double tan2 = -alpha * alpha * std::log1p(-u1), cos_h = 1 / std::sqrt(1 + tan2), sin_h = std::sqrt(tan2) * cos_h;
+  const double phi = 2 * kPi<double> * u2, hx = sin_h * std::cos(phi), hy = sin_h * std::sin(phi);
+  const double cos_d = o.x * hx + o.y * hy + o.z * cos_h;
+  if (cos_d <= 0) return std::nullopt;
+  const LocalDirection i{2 * cos_d * hx - o.x, 2 * cos_d * hy - o.y, 2 * cos_d * cos_h - o.z};
+  if (i.z <= 0) return std::nullopt;
+  return DirectionSample{i, beckmann_d(tan2, alpha) * cos_h / (4 * cos_d)};
+}
+
+double half_vector_pdf(double alpha, const LocalDirection& i, const LocalDirection& o) {
+  if (i.z <= 0 || o.z <= 0) return 0;
+  const Directions<double> w = reduce(i.x, i.y, i.z, o.x, o.y, o.z);
+  return beckmann_d(w.tan2_h, alpha) * w.cos_h() / (4 * w.cos_d);
+}
+
+DirectionSample sample_cosine(double u1, double u2) {
+  const double r = std::sqrt(u1), phi = 2 * kPi<double> * u2, z = std::sqrt(std::max(0.0, 1 - u1));
+  return {{r * std::cos(phi), r * std::sin(phi), z}, z / kPi<double>};
+}
+
+double cosine_pdf(const LocalDirection& i) { return std::max(0.0, i.z) / kPi<double>; }
+
+}  // namespace gonio

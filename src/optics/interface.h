@@ -1,0 +1,24 @@
+#pragma once
+// optics: Fresnel reflection, dispersion formulas.
+#include "optics/fresnel.h"
+
+namespace gonio {
+
+/// The boundary a facet shows to light: complex index n + ik relative to the incident medium, or a perfect mirror.
+template <class T>
+struct Interface {
+  T n{1}, k{0};
+  bool perfect = false;  ///< reflects 1 at every angle
+
+  /// Unpolarised reflectance at the local angle of incidence (cos_d between a direction and the facet's normal).
+  T reflectance(const T& cos_d) const { return perfect ? T(1) : fresnel(cos_d, n, k).unpolarised(); }
+  /// At normal incidence.
+  T r0() const { return perfect ? T(1) : normal_reflectance(n, k); }
+};
+
+template <class T>
+Interface<T> perfect_interface() {
+  return {T(1), T(0), true};
+}
+
+}  // namespace gonio

@@ -1,0 +1,24 @@
+#pragma once
+// surface: slope and normal laws, shadowing. m = slope rms (one-dimensional), alpha = √2·m = tan β0 of Beckmann.
+#include "base/number.h"
+
+namespace gonio {
+
+/// Beckmann's density of normals, per steradian; ∫ D cos dω = 1.
+/// Beckmann & Spizzichino 1963 (their p(β) as a density over solid angle); D = exp(-tan²ζ/α²)/(π α² cos⁴ζ).
+template <class T>
+T beckmann_d(const T& tan2_h, const T& alpha) {
+  using std::exp;
+  return exp(-tan2_h / square(alpha)) * square(T(1) + tan2_h) / (kPi<T> * square(alpha));
+}
+
+/// The thesis's slope law, Maillot 1996 eq. (28): P(ζ) = exp(-tan²ζ/(2m²))/(m √(2π) cos²ζ), a density over the angle ζ in
+/// a plane, not over solid angle.
+template <class T>
+T thesis_slope_density(const T& tan2_h, const T& slope_rms) {
+  using std::exp;
+  const T sqrt_2pi(2.506628274631000502415765284811045253L);
+  return exp(-tan2_h / (T(2) * square(slope_rms))) * (T(1) + tan2_h) / (slope_rms * sqrt_2pi);
+}
+
+}  // namespace gonio

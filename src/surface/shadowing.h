@@ -1,0 +1,54 @@
+#pragma once
+#include <string_view>
+
+#include "base/number.h"
+
+namespace gonio {
+
+/// Shadowing-masking functions on which papers disagree have a name each.
+enum class Shadowing { none, v_cavity, smith_separable, smith_correlated, smith_1967 };
+
+std::string_view name_of(Shadowing shadowing);
+/// InputError for an unknown name.
+Shadowing shadowing_from(std::string_view name);
+
+/// V-cavity (Torrance & Sparrow 1967, Blinn 1977): G = min(1, 2 n·h n·i / i·h, 2 n·h n·o / o·h).
+template <class T>
+T v_cavity(const T& cos_h, const T& cos_i, const T& cos_o, const T& cos_d) {
+  return smaller_of(T(1), T(2) * cos_h * smaller_of(cos_i, cos_o) / cos_d);
+}
+
+/// Smith's Λ for Gaussian slopes (Smith 1967 eq. 20-24 as in Heitz 2014), a = cot θ / alpha:
+///   Λ = ½ [exp(-a²)/(a√π) - erfc(a)];  Λ → 0 at the normal, → 1/(2a√π) at grazing.
+template <class T>
+T smith_lambda(const T& tan2, const T& alpha) {
+  using std::erfc, std::exp, std::sqrt;
+  // At the normal a is infinite and sqrt(0) has no derivative; from tan² = 1e-30 on Λ is 0 in every number type.
+  const T a = T(1) / (alpha * sqrt(larger_of(tan2, T(1e-30))));
+  return T(0.5) * (exp(-square(a)) / (a * T(1.772453850905516027298167483341145183L)) - erfc(a));
+}
+
+/// Smith's original shadowing function of one direction (1967): S = (1 - ½ erfc a)/(1 + Λ).
+template <class T>
+T smith_1967(const T& tan2, const T& alpha) {
+  using std::erfc, std::sqrt;
+  const T a = T(1) / (alpha * sqrt(larger_of(tan2, T(1e-30))));
+  return (T(1) - T(0.5) * erfc(a)) / (T(1) + smith_lambda(tan2, alpha));
+}
+
+/// G of both directions. Separable: G1(i)·G1(o), G1 = 1/(1+Λ); correlated in height: 1/(1 + Λ_i + Λ_o).
+template <class T, class Pair>
+T shadowing_masking(Shadowing shadowing, const Pair& w, const T& alpha) {
+  switch (shadowing) {
+    case Shadowing::none: return T(1);
+    case Shadowing::v_cavity: return v_cavity(T(w.cos_h()), T(w.cos_i), T(w.cos_o), T(w.cos_d));
+    case Shadowing::smith_separable:
+      return T(1) / ((T(1) + smith_lambda(T(w.tan2_i), alpha)) * (T(1) + smith_lambda(T(w.tan2_o), alpha)));
+    case Shadowing::smith_correlated:
+      return T(1) / (T(1) + smith_lambda(T(w.tan2_i), alpha) + smith_lambda(T(w.tan2_o), alpha));
+    case Shadowing::smith_1967: return smith_1967(T(w.tan2_i), alpha) * smith_1967(T(w.tan2_o), alpha);
+  }
+  return T(1);
+}
+
+}  // namespace gonio
