@@ -10,8 +10,8 @@ template <int N>
 using Jet = ceres::Jet<double, N>;
 
 template <int N>
-double value_of(const ceres::Jet<double, N>& x) {
-  return x.a;
-}
+struct ValueOf<ceres::Jet<double, N>> {
+  static double of(const ceres::Jet<double, N>& x) { return x.a; }
+};
 
 }  // namespace gonio

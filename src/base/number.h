@@ -53,14 +53,24 @@ T larger_of(const T& a, const T& b) {
   return select(a > b, a, b);
 }
 
-/// The number without its derivatives (for choosing branches and nodes, which carry none).
+/// The number without its derivatives (for choosing branches and nodes, which carry none); specialised in base/jet.h.
 template <class T>
-  requires(std::is_floating_point_v<T> || is_lanes_v<T>)
-T value_of(const T& x) {
-  return x;
+struct ValueOf {
+  static T of(const T& x) { return x; }
+};
+template <class T>
+auto value_of(const T& x) {
+  return ValueOf<T>::of(x);
 }
 
+// Constants of a formula; the 50-digit type has its own (src/reference).
 template <class T>
-inline const T kPi = T(3.14159265358979323846);
+inline const T kPi = T(3.141592653589793238462643383279502884L);
+template <class T>
+inline const T kSqrtPi = T(1.772453850905516027298167483341145183L);
+template <class T>
+inline const T kSqrt2Pi = T(2.506628274631000502415765284811045253L);
+template <class T>
+inline const T kSqrt2 = T(1.414213562373095048801688724209698079L);
 
 }  // namespace gonio

@@ -51,7 +51,7 @@ Brdf<T> make_brdf(const ModelSpec& spec, std::span<const T> values) {
     case ModelId::lambert: return {Lambert{}, values[0], T(0)};
     case ModelId::pseudo_realistic: return {PseudoRealistic<T>{values[0]}, values[1], values[2]};
     case ModelId::torrance_sparrow:
-      return {TorranceSparrow<T>{T(1.414213562373095048801688724209698079L) * values[0], spec.shadowing}, values[1], values[2]};
+      return {TorranceSparrow<T>{kSqrt2<T> * values[0], spec.shadowing}, values[1], values[2]};
     case ModelId::beckmann_kirchhoff:
       return {BeckmannKirchhoff<T>{values[0], values[1], spec.form}, values[2], values[3]};
   }

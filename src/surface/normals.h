@@ -17,8 +17,7 @@ T beckmann_d(const T& tan2_h, const T& alpha) {
 template <class T>
 T thesis_slope_density(const T& tan2_h, const T& slope_rms) {
   using std::exp;
-  const T sqrt_2pi(2.506628274631000502415765284811045253L);
-  return exp(-tan2_h / (T(2) * square(slope_rms))) * (T(1) + tan2_h) / (slope_rms * sqrt_2pi);
+  return exp(-tan2_h / (T(2) * square(slope_rms))) * (T(1) + tan2_h) / (slope_rms * kSqrt2Pi<T>);
 }
 
 }  // namespace gonio

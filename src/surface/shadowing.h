@@ -25,7 +25,7 @@ T smith_lambda(const T& tan2, const T& alpha) {
   using std::erfc, std::exp, std::sqrt;
   // At the normal a is infinite and sqrt(0) has no derivative; from tan² = 1e-30 on Λ is 0 in every number type.
   const T a = T(1) / (alpha * sqrt(larger_of(tan2, T(1e-30))));
-  return T(0.5) * (exp(-square(a)) / (a * T(1.772453850905516027298167483341145183L)) - erfc(a));
+  return T(0.5) * (exp(-square(a)) / (a * kSqrtPi<T>) - erfc(a));
 }
 
 /// Smith's original shadowing function of one direction (1967): S = (1 - ½ erfc a)/(1 + Λ).

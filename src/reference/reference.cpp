@@ -1,0 +1,38 @@
+#include "reference/reference.h"
+
+#include "reference/digits50.h"
+
+namespace gonio {
+namespace {
+
+Digits as_digits(const Digits50& x) { return {x.convert_to<double>(), x.str(40)}; }
+
+Digits evaluate_in_50(const ModelSpec& spec, std::span<const double> values, const Directions<Digits50>& w,
+                      const Interface<double>& surface, double wavelength_um) {
+  const std::vector<Digits50> parameters(values.begin(), values.end());
+  const Brdf<Digits50> brdf = make_brdf<Digits50>(spec, parameters);
+  const Interface<Digits50> interface{Digits50(surface.n), Digits50(surface.k), surface.perfect};
+  return as_digits(evaluate(brdf, w, interface, Digits50(wavelength_um)));
+}
+
+}  // namespace
+
+Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
+                          double phi_deg, const Interface<double>& surface, double wavelength_um) {
+  const auto w = directions_from_deg<Digits50>(Digits50(theta_i_deg), Digits50(theta_o_deg), Digits50(phi_deg));
+  return evaluate_in_50(spec, values, w, surface, wavelength_um);
+}
+
+Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,
+                          const Interface<double>& surface, double wavelength_um) {
+  const Directions<Digits50> exact{Digits50(w.cos_i),  Digits50(w.cos_o),  Digits50(w.cos_d),
+                                   Digits50(w.tan2_h), Digits50(w.tan2_i), Digits50(w.tan2_o)};
+  return evaluate_in_50(spec, values, exact, surface, wavelength_um);
+}
+
+Polarised<double> reference_fresnel(double theta_deg, double n, double k) {
+  const auto r = fresnel(cos_deg(Digits50(theta_deg)), Digits50(n), Digits50(k));
+  return {r.s.convert_to<double>(), r.p.convert_to<double>()};
+}
+
+}  // namespace gonio

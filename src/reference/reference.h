@@ -1,0 +1,27 @@
+#pragma once
+// reference: the models' own templates in 50 digits, the judge of the other number types. Slow; instantiated once, here.
+#include <span>
+#include <string>
+
+#include "brdf/brdf.h"
+
+namespace gonio {
+
+/// A 50-digit result: rounded to double, and its decimal digits.
+struct Digits {
+  double value;
+  std::string text;
+};
+
+/// f_r at exactly the doubles given: angles in degrees (zenith < 90), parameters in the model's order, n and k, µm.
+Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
+                          double phi_deg, const Interface<double>& surface, double wavelength_um);
+
+/// The same at directions already reduced (cosines and tangents taken as exact).
+Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,
+                          const Interface<double>& surface, double wavelength_um);
+
+/// R_s and R_p at exactly these doubles; the angle in degrees, 0 to 90.
+Polarised<double> reference_fresnel(double theta_deg, double n, double k);
+
+}  // namespace gonio
