@@ -10,9 +10,10 @@
 namespace gonio {
 
 /// One entry of the database. Wavelengths in nm. Columns by kind: optical-constants n[, k]; reflectance, transmittance,
-/// illuminant, luminous-efficiency one column; observer three (xbar, ybar, zbar). A dispersion formula replaces the table.
+/// illuminant, luminous-efficiency one column; observer three (xbar, ybar, zbar). A dispersion formula replaces the
+/// table.
 struct Entry {
-  std::string id, name, kind, unit, specimen, temperature, method, citation, doi, licence, confidence;
+  std::string id, name, kind, unit, specimen, temperature, method, citation, doi, licence, confidence, note;
   double range_lo_nm = 0, range_hi_nm = 0;    ///< what the entry covers
   double source_lo_nm = 0, source_hi_nm = 0;  ///< what its source covers
   std::string formula;                        ///< empty for a table; "sellmeier-2" … (refractiveindex.info's names)
@@ -23,7 +24,8 @@ struct Entry {
   std::string file;                          ///< where it was read
 
   bool has_k() const;
-  /// Column c at a wavelength: linear between points, or the formula. InputError outside the entry's range (never extended).
+  /// Column c at a wavelength: linear between points, or the formula. InputError outside the entry's range (never
+  /// extended).
   double at(double wavelength_nm, std::size_t column = 0) const;
 };
 
@@ -39,6 +41,10 @@ class Database {
   bool contains(std::string_view id_or_alias) const;
   /// The full id behind an alias (itself for an id).
   std::string full_id(std::string_view id_or_alias) const;
+  /// Every id, in order; reads no entry.
+  std::vector<std::string> ids() const;
+  /// The aliases of a full id.
+  std::vector<std::string> aliases_of(std::string_view id) const;
   /// Every entry, by id.
   std::vector<const Entry*> all() const;
   /// Entries whose id, alias, name, kind or citation has every word of the query (case-insensitive).

@@ -1,0 +1,49 @@
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "materials/database.h"
+
+namespace gonio {
+namespace {
+
+/// The transparent medium of reflectance r0 at normal incidence: n = (1+√R0)/(1-√R0) (Cook & Torrance 1982).
+/// As r0 approaches 1 its reflectance approaches 1 at every angle; from there on (noise) it is that limit.
+Interface<double> interface_of_reflectance(double r0) {
+  if (r0 >= 1) return perfect_interface<double>();
+  const double root = std::sqrt(r0);
+  return {(1 + root) / (1 - root), 0.0};
+}
+
+}  // namespace
+
+SurfaceMaterial::SurfaceMaterial(std::string_view id_or_alias, const Database& database) {
+  id_ = "perfect";
+  if (id_or_alias == id_) return;
+  entry_ = &database.find(id_or_alias);
+  id_ = entry_->id;
+  from_reflectance_ = entry_->kind == "reflectance";
+  if (!from_reflectance_ && entry_->kind != "optical-constants")
+    throw input_error("{} is of kind {}; expected a material of kind optical-constants or reflectance, or `perfect`",
+                      id_, entry_->kind);
+}
+
+SurfaceMaterial SurfaceMaterial::perfect() {
+  SurfaceMaterial material;
+  material.id_ = "perfect";
+  return material;
+}
+
+double SurfaceMaterial::range_lo_nm() const { return entry_ ? entry_->range_lo_nm : 0; }
+double SurfaceMaterial::range_hi_nm() const {
+  return entry_ ? entry_->range_hi_nm : std::numeric_limits<double>::infinity();
+}
+
+Interface<double> SurfaceMaterial::at(double wavelength_nm) const {
+  if (!entry_) return perfect_interface<double>();
+  const double value = entry_->at(wavelength_nm);
+  if (from_reflectance_) return interface_of_reflectance(value);
+  return {value, entry_->has_k() ? entry_->at(wavelength_nm, 1) : 0.0};
+}
+
+}  // namespace gonio
