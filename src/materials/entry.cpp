@@ -1,23 +1,11 @@
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "materials/database.h"
 #include "optics/dispersion.h"
+#include "spectrum/spectrum.h"
 
 namespace gonio {
-namespace {
-
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto above = std::upper_bound(x.begin(), x.end(), at);
-  const std::size_t hi = std::clamp<std::size_t>(static_cast<std::size_t>(above - x.begin()), 1, x.size() - 1);
-  if (at == x[hi - 1]) return y[hi - 1];  // also where the neighbour is unknown
-  if (at == x[hi]) return y[hi];
-  const double t = (at - x[hi - 1]) / (x[hi] - x[hi - 1]);
-  return (1 - t) * y[hi - 1] + t * y[hi];
-}
-
-}  // namespace
 
 bool Entry::has_k() const { return column_names.size() == 2 && column_names[1] == "k"; }
 
