@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "image/spectral_image.h"
+#include "scene/scene.h"
+
+namespace gonio {
+
+/// How the light of the spherical lights is looked for. The environment is always found by BRDF sampling.
+enum class Strategy {
+  mis,    ///< light and BRDF sampling, weighted by the balance heuristic (Veach & Guibas 1995)
+  light,  ///< light sampling only (but for light met through a coherent delta)
+  brdf    ///< BRDF sampling only
+};
+
+struct RenderSettings {
+  int spp = 64;       ///< paths a pixel
+  int max_depth = 8;  ///< reflections a path; light that needs more is missing
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0 = all; the image does not depend on it
+  Strategy strategy = Strategy::mis;
+  bool variance = true;                         ///< also estimate the variance (as much memory again)
+  std::function<void(double done)> progress{};  ///< called from any thread with the share done, 0 to 1
+};
+
+struct RenderResult {
+  SpectralImage image;
+  /// Of each value of image.radiance, the variance of that mean (standard error squared), from the sample variance of
+  /// its paths; empty without settings.variance. 0 with one path a pixel.
+  std::vector<double> variance;
+};
+
+/// Spectral Monte Carlo path tracing. Same scene, seed and settings: same bits, whatever the number of threads.
+/// InputError for a scene that cannot be rendered (check(), a material outside its range).
+RenderResult render(const Scene& scene, const RenderSettings& settings);
+
+/// `mis`, `light`, `brdf`; InputError for another name.
+Strategy strategy_from(std::string_view name);
+
+}  // namespace gonio
