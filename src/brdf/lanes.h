@@ -1,0 +1,26 @@
+#pragma once
+#include "brdf/brdf.h"
+
+namespace gonio {
+
+/// A pair of directions, or a surface, spread over SIMD lanes (the fast path evaluates many at once).
+template <class Lanes>
+Directions<Lanes> spread(const Directions<double>& w) {
+  using S = scalar_t<Lanes>;
+  return {Lanes(S(w.cos_i)), Lanes(S(w.cos_o)), Lanes(S(w.cos_d)), Lanes(S(w.tan2_h)), Lanes(S(w.tan2_i)), Lanes(S(w.tan2_o))};
+}
+
+template <class Lanes>
+Interface<Lanes> spread(const Interface<double>& surface) {
+  using S = scalar_t<Lanes>;
+  return {Lanes(S(surface.n)), Lanes(S(surface.k)), surface.perfect};
+}
+
+template <class Lanes>
+Brdf<Lanes> spread_brdf(const ModelSpec& spec, std::span<const double> values) {
+  std::vector<Lanes> lanes;
+  for (const double value : values) lanes.push_back(Lanes(scalar_t<Lanes>(value)));
+  return make_brdf<Lanes>(spec, lanes);
+}
+
+}  // namespace gonio

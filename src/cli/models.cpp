@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "brdf/models.h"
+#include "cli/commands.h"
+
+namespace gonio::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json describe(const ModelInfo& info) {
+  Json parameters = Json::array();
+  for (const ParameterInfo& p : info.parameters)
+    parameters.push_back({{"name", p.name},
+                          {"unit", p.unit},
+                          {"meaning", p.meaning},
+                          {"range", {p.lo, p.hi}},
+                          {"fit_range", {p.fit_lo, p.fit_hi}},
+                          {"default", p.fallback ? Json(*p.fallback) : Json(nullptr)}});
+  return {{"name", info.name},
+          {"summary", info.summary},
+          {"formula", info.formula},
+          {"source", info.source},
+          {"parameters", parameters},
+          {"shadowing", info.shadowings},
+          {"variants", info.variants},
+          {"needs_wavelength", info.needs_wavelength},
+          {"claims",
+           {{"reciprocal", info.reciprocal}, {"conserving", info.conserving}, {"bounded_at_grazing", info.bounded_at_grazing}}}};
+}
+
+void print_card(const ModelInfo& info) {
+  fmt::print("{}: {}\n  {}\n  source: {}\n", info.name, info.summary, info.formula, info.source);
+  for (const ParameterInfo& p : info.parameters)
+    fmt::print("  {:<15} {:<3} [{:g}, {:g}]  {}; {}\n", p.name, p.unit, p.lo, p.hi, p.meaning,
+               p.fallback ? fmt::format("default {:g}", *p.fallback) : "no default");
+  if (!info.shadowings.empty())
+    fmt::print("  shadowing       {} (default smith-correlated)\n", fmt::join(info.shadowings, ", "));
+  fmt::print("  variants        {}\n", fmt::join(info.variants, ", "));
+  fmt::print("  claims          {}, {}, {}{}\n\n", info.reciprocal ? "reciprocal" : "not reciprocal",
+             info.conserving ? "conserving for kd + ks <= 1" : "not conserving by itself (see `gonio table limits`)",
+             info.bounded_at_grazing ? "bounded at grazing" : "unbounded at grazing",
+             info.needs_wavelength ? "; needs the wavelength" : "");
+}
+
+}  // namespace
+
+void add_models(CLI::App& app, Common& common) {
+  auto* command = app.add_subcommand("models", "Models, parameters with units and ranges, variants, claims");
+  command->footer("Example: gonio models torrance-sparrow");
+  add_common(*command, common);
+  auto name = std::make_shared<std::string>();
+  command->add_option("name", *name, "One model only");
+  command->callback([&common, name] {
+    if (!name->empty()) {
+      const ModelInfo& info = model(*name);
+      if (common.json) std::cout << describe(info).dump(2) << '\n';
+      else print_card(info);
+      return;
+    }
+    if (common.json) {
+      Json all = Json::array();
+      for (const ModelInfo& info : models()) all.push_back(describe(info));
+      std::cout << all.dump(2) << '\n';
+      return;
+    }
+    for (const ModelInfo& info : models()) print_card(info);
+  });
+}
+
+}  // namespace gonio::cli

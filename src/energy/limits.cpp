@@ -1,0 +1,107 @@
+#include "energy/limits.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gonio {
+namespace {
+
+bool unbounded_at_grazing(const Brdf<double>& brdf) {
+  return std::holds_alternative<BeckmannKirchhoff<double>>(brdf.lobe);
+}
+
+/// Everything (43) asks of one incidence, over all wavelengths.
+struct AtAngle {
+  LimitRow row;             ///< the wavelength of the largest E + coherent
+  LimitRow worst_total;     ///< the wavelength of the largest total
+  double largest_e = 0;     ///< max of E + coherent + error
+  double smallest_kd = 1e9;  ///< min of (1 - ks(E + coherent + error))/ρd
+};
+
+AtAngle look_at(const Brdf<double>& brdf, const SurfaceSamples& samples, double theta_deg, double tolerance) {
+  const SpectralSurface& surface = samples.surface;
+  const std::vector<Estimate> e = directional_reflectance(brdf.lobe, theta_deg, surface, tolerance);
+  Brdf<double> unit = brdf;
+  unit.ks = 1;
+  AtAngle result;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const double rho_d = brdf.diffuse_times_r0() ? surface.interfaces[i].r0() : 1;
+    const double coherent = coherent_energy(unit, cos_deg(theta_deg), surface.interfaces[i], surface.wavelength_um[i]);
+    const double reflected = e[i].value + coherent, bound = reflected + e[i].error;
+    const LimitRow row{theta_deg, samples.wavelength_nm[i], e[i], coherent, brdf.kd * rho_d + brdf.ks * reflected};
+    if (i == 0 || bound > result.largest_e) result.row = row;
+    if (i == 0 || row.total > result.worst_total.total) result.worst_total = row;
+    result.largest_e = std::max(result.largest_e, bound);
+    if (rho_d > 0) result.smallest_kd = std::min(result.smallest_kd, (1 - brdf.ks * bound) / rho_d);
+  }
+  return result;
+}
+
+void take(Limits& limits, const AtAngle& at, double& largest_e, double& smallest_kd) {
+  largest_e = std::max(largest_e, at.largest_e);
+  smallest_kd = std::min(smallest_kd, at.smallest_kd);
+  limits.worst_error = std::max(limits.worst_error, at.row.e.error);
+  if (at.worst_total.total > limits.worst_total) {
+    limits.worst_total = at.worst_total.total;
+    limits.worst_theta_deg = at.worst_total.theta_deg;
+    limits.worst_wavelength_nm = at.worst_total.wavelength_nm;
+  }
+}
+
+}  // namespace
+
+std::vector<double> limit_angles_deg() {
+  std::vector<double> angles;
+  for (int theta = 0; theta <= 85; theta += 5) angles.push_back(theta);
+  for (const double theta : {87.0, 88.0, 89.0, 89.5, 89.9, 89.99}) angles.push_back(theta);
+  return angles;
+}
+
+Limits conservation_limits(const Brdf<double>& brdf, const SurfaceSamples& samples, std::vector<double> angles_deg,
+                           double theta_max_deg_if_unbounded, double tolerance) {
+  Limits limits;
+  limits.bounded = !unbounded_at_grazing(brdf);
+  limits.theta_max_deg = limits.bounded ? 90 : theta_max_deg_if_unbounded;
+  limits.range_lo_nm = samples.wavelength_nm.front();
+  limits.range_hi_nm = samples.wavelength_nm.back();
+  std::erase_if(angles_deg, [&](double theta) { return theta > limits.theta_max_deg; });
+  if (!limits.bounded) angles_deg.push_back(limits.theta_max_deg);
+  std::sort(angles_deg.begin(), angles_deg.end());
+  angles_deg.erase(std::unique(angles_deg.begin(), angles_deg.end()), angles_deg.end());
+
+  std::vector<AtAngle> at(angles_deg.size());
+  tbb::parallel_for(std::size_t(0), at.size(), [&](std::size_t i) { at[i] = look_at(brdf, samples, angles_deg[i], tolerance); });
+  double largest_e = 0, smallest_kd = 1e9;
+  std::size_t peak = 0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    take(limits, at[i], largest_e, smallest_kd);
+    limits.rows.push_back(at[i].row);
+    if (at[i].largest_e > at[peak].largest_e) peak = i;
+  }
+  // Between the peak's neighbours: nine angles, twice.
+  double lo = angles_deg[peak > 0 ? peak - 1 : 0], hi = angles_deg[std::min(peak + 1, angles_deg.size() - 1)];
+  for (int pass = 0; pass < 2 && hi > lo; ++pass) {
+    std::vector<AtAngle> between(9);
+    const auto angle = [&](std::size_t i) { return lo + (hi - lo) * static_cast<double>(i + 1) / 10; };
+    tbb::parallel_for(std::size_t(0), between.size(), [&](std::size_t i) { between[i] = look_at(brdf, samples, angle(i), tolerance); });
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < between.size(); ++i) {
+      take(limits, between[i], largest_e, smallest_kd);
+      if (between[i].largest_e > between[best].largest_e) best = i;
+    }
+    const double middle = angle(best), step = (hi - lo) / 10;
+    lo = middle - step;
+    hi = middle + step;
+  }
+  const Brdf<double> unit{brdf.lobe, 0, 1};
+  for (std::size_t i = 0; i < samples.surface.size(); ++i)
+    limits.coherent_energy = std::max(
+        limits.coherent_energy, coherent_energy(unit, 1.0, samples.surface.interfaces[i], samples.surface.wavelength_um[i]));
+  limits.ks_max = largest_e > 0 ? 1 / largest_e : std::numeric_limits<double>::infinity();
+  limits.kd_max = std::max(0.0, smallest_kd);
+  return limits;
+}
+
+}  // namespace gonio

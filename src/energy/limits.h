@@ -1,0 +1,46 @@
+#pragma once
+#include <vector>
+
+#include "energy/directional_reflectance.h"
+
+namespace gonio {
+
+/// The surface over a range of wavelengths, as the limits need it.
+struct SurfaceSamples {
+  std::vector<double> wavelength_nm;  ///< increasing; one 0 where no wavelength matters
+  SpectralSurface surface;            ///< in step with wavelength_nm
+};
+
+/// E at one incidence: the worst wavelength's, with the coherent delta's energy added in `total`.
+struct LimitRow {
+  double theta_deg = 0, wavelength_nm = 0;
+  Estimate e;           ///< incoherent lobe, ks = 1
+  double coherent = 0;  ///< energy of the delta, ks = 1
+  double total = 0;     ///< kd·ρd + ks·(E + coherent) of the material as given
+};
+
+/// Energy conservation, Maillot 1996 eq. (43): kd·ρd + ks·E <= 1 for every incidence and wavelength.
+struct Limits {
+  double ks_max = 0;  ///< 1/max E (kd = 0), lowered by the quadrature's error bound
+  double kd_max = 0;  ///< min (1 - ks·E)/ρd at the material's own ks; 0 when the lobe alone breaks (43)
+  double worst_total = 0, worst_theta_deg = 0, worst_wavelength_nm = 0;  ///< of the material as given
+  double worst_error = 0;                                                ///< largest error bound of any E
+  double coherent_energy = 0;                                            ///< at normal incidence, ks = 1, largest over wavelengths
+  double theta_max_deg = 90;  ///< limits hold up to here; below 90 the lobe is unbounded at grazing: "not conserving beyond"
+  bool bounded = true;        ///< the lobe's E is bounded up to grazing
+  double range_lo_nm = 0, range_hi_nm = 0;
+  std::vector<LimitRow> rows;
+
+  /// (43) holds for the material as given.
+  bool holds() const { return bounded && worst_total <= 1 + worst_error; }
+};
+
+/// Angles at which the limits look for the maximum: 5° apart, closer towards grazing, to 89.99°.
+std::vector<double> limit_angles_deg();
+
+/// Limits of a material. Unbounded lobes are examined to theta_max_deg only. The maximum over θ is searched on `angles_deg`
+/// and refined between its neighbours.
+Limits conservation_limits(const Brdf<double>& brdf, const SurfaceSamples& samples, std::vector<double> angles_deg,
+                           double theta_max_deg_if_unbounded = 75, double tolerance = 1e-7);
+
+}  // namespace gonio
