@@ -14,7 +14,10 @@ double Entry::at(double nm, std::size_t column) const {
     throw input_error("{}: {} nm is outside the data; expected {} to {} nm", id, nm, range_lo_nm, range_hi_nm);
   if (!formula.empty()) {
     if (column != 0) throw input_error("{}: has no column {}; a dispersion formula gives n alone", id, column);
-    return refractive_index<double>(*dispersion_named(formula), coefficients, nm * 1e-3);
+    const double n = refractive_index<double>(*dispersion_named(formula), coefficients, nm * 1e-3);
+    if (!(n > 0) || !std::isfinite(n))
+      throw input_error("{}: the formula gives n = {} at {} nm; expected n > 0", id, n, nm);
+    return n;
   }
   if (column >= columns.size())
     throw input_error("{}: has no column {}; expected below {}", id, column, columns.size());

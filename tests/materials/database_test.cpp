@@ -1,0 +1,152 @@
+// The bundled database against catalogue values and published reflectances; the database's own rules.
+#include "materials/database.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "catch.h"
+
+using namespace gonio;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own that disappears with the test.
+struct Scratch {
+  fs::path path = fs::temp_directory_path() / fmt::format("gonio-materials-test-{}", ::getpid());
+  Scratch() { fs::remove_all(path), fs::create_directories(path / "reflectance"); }
+  ~Scratch() { fs::remove_all(path); }
+  void entry(const std::string& file, const std::string& id) const {
+    write_file(
+        path / file,
+        fmt::format(
+            "id: {}\nname: grey\nkind: reflectance\nunit: 1\nrange_nm: 400 700\nsource_range_nm: 400 700\n"
+            "citation: nobody\nlicence: CC0\nconfidence: low\n---\nwavelength_nm,reflectance\n400,0.25\n700,1.01\n",
+            id));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Every bundled entry is read, range-checked, cited and licensed", "[materials]") {
+  const std::vector<const Entry*> all = Database::bundled().all();
+  CHECK(all.size() >= 60);
+  for (const Entry* entry : all) {
+    INFO(entry->id);
+    CHECK_FALSE(entry->citation.empty());
+    CHECK_FALSE(entry->licence.empty());
+    CHECK(entry->at(entry->range_lo_nm) >= 0);
+    CHECK(entry->at(0.5 * (entry->range_lo_nm + entry->range_hi_nm)) >= 0);
+  }
+  for (const char* name : {"Al", "Ag", "Au", "Cu", "Fe", "Cr", "Ni", "Ti", "W", "Pt", "Si", "N-BK7", "BK7",
+                           "fused-silica", "SiO2", "water", "PMMA", "TiO2"})
+    CHECK(SurfaceMaterial(name).at(550).n > 0);
+  for (const char* name : {"1931-2", "1964-10", "V", "V-prime", "A", "D65", "E"})
+    CHECK(Database::bundled().contains(name));
+  int patches = 0;
+  for (const Entry* entry : all) patches += entry->id.starts_with("colorchecker-ohta-");
+  CHECK(patches == 24);
+}
+
+TEST_CASE("Metals reflect at normal incidence what is published", "[materials]") {
+  const auto r0 = [](const char* id, double nm) { return SurfaceMaterial(id).at(nm).r0(); };
+  // Gold by Johnson & Christy 1972: the figures that circulate for their data.
+  CHECK(r0("Au", 450) == Approx(0.408).margin(2e-3));
+  CHECK(r0("Au", 500) == Approx(0.475).margin(2e-3));
+  CHECK(r0("Au", 550) == Approx(0.792).margin(2e-3));
+  CHECK(r0("Au", 650) == Approx(0.957).margin(2e-3));
+  CHECK(r0("Ag", 550) == Approx(0.98).margin(5e-3));
+  CHECK(r0("Al", 550) == Approx(0.92).margin(6e-3));
+  CHECK(r0("Cu", 450) == Approx(0.54).margin(0.02));
+  CHECK(r0("Si", 550) == Approx(0.367).margin(2e-3));
+  CHECK(r0("water", 589) == Approx(0.02).margin(1e-3));
+}
+
+TEST_CASE("Glasses show their catalogue indices", "[materials]") {
+  const auto n = [](const char* id, double nm) { return SurfaceMaterial(id).at(nm).n; };
+  // SCHOTT data sheet N-BK7: lines d, F, C, e, i.
+  CHECK(n("N-BK7", 587.5618) == Approx(1.51680).margin(5e-6).epsilon(0));
+  CHECK(n("N-BK7", 486.1327) == Approx(1.52238).margin(5e-6).epsilon(0));
+  CHECK(n("N-BK7", 656.2725) == Approx(1.51432).margin(5e-6).epsilon(0));
+  CHECK(n("N-BK7", 546.0740) == Approx(1.51872).margin(5e-6).epsilon(0));
+  CHECK(n("N-BK7", 365.0146) == Approx(1.53627).margin(5e-6).epsilon(0));
+  // Malitson 1965, table: computed indices at 589.29, 404.66 and 1083.03 nm.
+  CHECK(n("fused-silica", 589.2938) == Approx(1.458404).margin(1.5e-6).epsilon(0));
+  CHECK(n("fused-silica", 404.6561) == Approx(1.469618).margin(1.5e-6).epsilon(0));
+  CHECK(n("fused-silica", 1083.03) == Approx(1.449405).margin(5e-6).epsilon(0));
+  CHECK(n("sapphire", 587.5618) == Approx(1.7682).margin(1e-4).epsilon(0));
+  CHECK(SurfaceMaterial("N-BK7").at(550).k == 0);
+  CHECK_THROWS_WITH(SurfaceMaterial("N-BK7").at(250), Catch::Contains("300 to 2500 nm"));
+}
+
+TEST_CASE("Aliases lead to full ids; unknown names are answered with near ones", "[materials]") {
+  const Database& database = Database::bundled();
+  CHECK(database.full_id("Au") == "Au_Johnson");
+  CHECK(database.full_id("Au_Johnson") == "Au_Johnson");
+  CHECK(&database.find("Al") == &database.find("Al_Rakic"));
+  CHECK(SurfaceMaterial("BK7").id() == "N-BK7_SCHOTT");
+  CHECK_FALSE(database.contains("Unobtainium"));
+  CHECK_THROWS_WITH(database.find("Au_Jonson"), Catch::Contains("Au_Johnson"));
+  CHECK_THROWS_WITH(database.find("d65"), Catch::Contains("D65"));
+  CHECK_THROWS_WITH(database.find("pmma"), Catch::Contains("PMMA"));
+  CHECK_THROWS_AS(database.find(""), InputError);
+  CHECK_THROWS_AS(database.find("../README"), InputError);
+}
+
+TEST_CASE("Search finds every word, whatever its case", "[materials]") {
+  const std::vector<const Entry*> gold = Database::bundled().search("GOLD johnson");
+  REQUIRE(gold.size() == 1);
+  CHECK(gold[0]->id == "Au_Johnson");
+  CHECK(Database::bundled().search("optical-constants malitson").size() == 2);
+  CHECK(Database::bundled().search("no such word").empty());
+}
+
+TEST_CASE("Surface materials: perfect, from reflectance, and kinds that are none", "[materials]") {
+  const SurfaceMaterial perfect("perfect");
+  CHECK(perfect.is_perfect());
+  CHECK(perfect.at(1e6).r0() == 1);
+  CHECK(perfect.range_lo_nm() == 0);
+  CHECK(std::isinf(perfect.range_hi_nm()));
+  const SurfaceMaterial red("colorchecker-ohta-red");
+  CHECK(red.from_reflectance());
+  for (const double nm : {400.0, 550.0, 777.0}) {
+    CHECK(red.at(nm).r0() == Approx(red.entry()->at(nm)).epsilon(1e-13));
+    CHECK(red.at(nm).k == 0);
+  }
+  CHECK_THROWS_WITH(SurfaceMaterial("D65"), Catch::Contains("kind illuminant"));
+  CHECK_THROWS_WITH(SurfaceMaterial("Au").at(200), Catch::Contains("292.4 to 1216 nm"));
+}
+
+TEST_CASE("A database of one's own: ids are file names, noise above 1 is a perfect reflector", "[materials]") {
+  const Scratch scratch;
+  scratch.entry("reflectance/grey_me.txt", "grey_me");
+  write_file(scratch.path / "aliases.txt", "# one\ngrey: grey_me\n");
+  {
+    const Database database(scratch.path.string());
+    const SurfaceMaterial grey("grey", database);
+    CHECK(grey.at(400).n == Approx(3));  // (1 + ½)/(1 - ½)
+    CHECK(grey.at(700).r0() == 1);
+  }
+  scratch.entry("reflectance/wrong.txt", "right");
+  const Database database(scratch.path.string());
+  CHECK(database.find("grey").id == "grey_me");  // other files are not read
+  CHECK_THROWS_WITH(database.find("wrong"), Catch::Contains("expected the file's name"));
+  write_file(scratch.path / "aliases.txt", "grey: gray_me\n");
+  CHECK_THROWS_WITH(Database(scratch.path.string()), Catch::Contains("aliases.txt:1: grey points to gray_me"));
+  CHECK_THROWS_AS(Database((scratch.path / "nowhere").string()), InputError);
+}
+
+TEST_CASE("Entries are read once, from any number of threads", "[materials]") {
+  const Database database(std::string(GONIO_SOURCE_DIR) + "/materials_db");
+  std::vector<const Entry*> seen(8, nullptr);
+  {
+    std::vector<std::jthread> threads;
+    for (const Entry*& entry : seen) threads.emplace_back([&database, &entry] { entry = &database.find("Au"); });
+  }
+  for (const Entry* entry : seen) CHECK(entry == seen[0]);
+}
