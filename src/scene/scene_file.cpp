@@ -1,0 +1,185 @@
+#include "scene/scene_file.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "materials/database.h"
+#include "scene/yaml_map.h"
+
+namespace gonio {
+namespace {
+
+constexpr double kFarthest = 1e4, kLeastRadius = 1e-4, kBrightest = 1e12;
+constexpr std::size_t kMostObjects = 1000;
+
+/// Runs a step of reading; what it refuses is told with the line of the key it read.
+template <class Step>
+auto at_line(const YamlMap& map, std::string_view key, Step step) {
+  try {
+    return step();
+  } catch (const InputError& error) {
+    throw input_error("{}:{}: {}", map.file(), map.line(key), error.what());
+  }
+}
+
+Camera read_camera(YamlMap map) {
+  Camera camera;
+  camera.position = map.point("position");
+  camera.look_at = map.point("look_at");
+  camera.fov_deg = map.number_or("fov_deg", 0.1, 170, camera.fov_deg);
+  if (map.has("width")) camera.width = map.integer("width", 1, 16384);
+  if (map.has("height")) camera.height = map.integer("height", 1, 16384);
+  map.finish();
+  return camera;
+}
+
+Emission read_emission(YamlMap& map) {
+  Emission emission{map.number("radiance", 0, kBrightest), map.text_or("illuminant", "constant")};
+  at_line(map, "illuminant", [&] { return radiance_at(emission, 560); });
+  return emission;
+}
+
+/// Values in the model's order; alpha = √2·m may stand for m.
+std::vector<double> read_values(YamlMap map, const ModelInfo& info) {
+  const bool takes_alpha = info.parameters.front().name == "m";
+  if (takes_alpha && map.has("alpha") && map.has("m"))
+    throw map.error(map.at("alpha"), "m and alpha are both given", "exactly one (alpha = sqrt(2) m)");
+  std::vector<double> values;
+  for (const ParameterInfo& p : info.parameters) {
+    if (p.name == "m" && map.has("alpha")) {
+      values.push_back(map.number("alpha", p.lo * std::sqrt(2), p.hi * std::sqrt(2)) / std::sqrt(2));
+    } else if (p.fallback) {
+      values.push_back(map.number_or(p.name, p.lo, p.hi, *p.fallback));
+    } else {
+      values.push_back(map.number(p.name, p.lo, p.hi));
+    }
+  }
+  map.finish();
+  return values;
+}
+
+SceneMaterial read_material(const std::string& name, YamlMap map) {
+  SceneMaterial material;
+  material.name = name;
+  const std::string model_name = map.text("model"), shadowing = map.text_or("shadowing", ""),
+                    variant = map.text_or("variant", ""), id = map.text_or("material", "perfect");
+  at_line(map, "model", [&] { material.model.id = model(model_name).id; });
+  if (!shadowing.empty()) at_line(map, "shadowing", [&] { set_shadowing(material.model, shadowing); });
+  if (!variant.empty()) at_line(map, "variant", [&] { set_variant(material.model, variant); });
+  if (id != "perfect") at_line(map, "material", [&] { material.material = SurfaceMaterial(id).id(); });
+  const ModelInfo& info = material.model.info();
+  if (map.has("set")) {
+    material.values = read_values(map.map("set"), info);
+  } else {
+    material.values = read_values(YamlMap(YAML::Load("{}"), map.file(), name), info);
+  }
+  map.finish();
+  return material;
+}
+
+std::size_t material_index(YamlMap& map, const Scene& scene) {
+  const std::string name = map.text("material");
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    if (scene.materials[m].name == name) return m;
+  std::vector<std::string> known;
+  for (const SceneMaterial& material : scene.materials) known.push_back(material.name);
+  throw map.error(map.at("material"), fmt::format("no material is called `{}`", name),
+                  fmt::format("one of {}", fmt::join(known, ", ")));
+}
+
+std::vector<YamlMap> list_of_maps(YamlMap& map, std::string_view key, std::string_view one) {
+  const YAML::Node list = map.at(key);
+  if (!list.IsSequence() || list.size() > kMostObjects)
+    throw map.error(list, fmt::format("{} is no list", key), fmt::format("a list of at most {}", kMostObjects));
+  std::vector<YamlMap> maps;
+  for (const auto& item : list) maps.emplace_back(item, map.file(), std::string(one));
+  return maps;
+}
+
+void read_objects(YamlMap& map, Scene& scene) {
+  if (map.has("spheres")) {
+    for (YamlMap& one : list_of_maps(map, "spheres", "a sphere")) {
+      scene.spheres.push_back(
+          {one.point("center"), one.number("radius", kLeastRadius, kFarthest), material_index(one, scene)});
+      one.finish();
+    }
+  }
+  if (map.has("ground")) {
+    YamlMap one = map.map("ground");
+    scene.ground = GroundObject{one.number_or("height", -kFarthest, kFarthest, 0),
+                                one.number_or("radius", kLeastRadius, kFarthest, 100), material_index(one, scene)};
+    one.finish();
+  }
+  if (map.has("lights")) {
+    for (YamlMap& one : list_of_maps(map, "lights", "a light")) {
+      scene.lights.push_back({one.point("center"), one.number("radius", kLeastRadius, kFarthest), read_emission(one)});
+      one.finish();
+    }
+  }
+}
+
+/// {from, to, step}
+std::vector<double> read_range(YamlMap map) {
+  const double from = map.number("from", 100, 1e5), to = map.number("to", from, 1e5),
+               step = map.number("step", 1e-3, 1e5);
+  map.finish();
+  const double steps = std::floor((to - from) / step + 1e-9);
+  if (steps >= static_cast<double>(kMaxWavelengths))
+    throw map.error(map.at("step"), fmt::format("{} wavelengths", steps + 1),
+                    fmt::format("at most {}", kMaxWavelengths));
+  std::vector<double> all;
+  for (int w = 0; w <= static_cast<int>(steps); ++w) all.push_back(from + step * w);
+  return all;
+}
+
+std::vector<double> read_wavelengths(YamlMap& map) {
+  const YAML::Node node = map.at("wavelengths_nm");
+  if (node.IsMap()) return read_range(map.map("wavelengths_nm"));
+  if (!node.IsSequence()) return {map.number("wavelengths_nm", 100, 1e5)};
+  if (node.size() == 0 || node.size() > kMaxWavelengths)
+    throw map.error(node, fmt::format("{} wavelengths", node.size()), fmt::format("1 to {}", kMaxWavelengths));
+  std::vector<double> all;
+  for (const auto& one : node) {
+    all.push_back(map.number_of(one, "wavelengths_nm", all.empty() ? 100 : all.back(), 1e5));
+    if (all.size() > 1 && all.back() == all[all.size() - 2])
+      throw map.error(one, "a wavelength appears twice", "increasing wavelengths");
+  }
+  return all;
+}
+
+/// Every material must be known at every wavelength.
+void check_materials(YamlMap materials, const Scene& scene) {
+  for (const SceneMaterial& material : scene.materials) {
+    if (material.material == "perfect" || material.fixed_interface) continue;
+    const SurfaceMaterial surface(material.material);
+    at_line(materials.map(material.name), "material", [&] {
+      for (const double nm : scene.wavelengths_nm) surface.at(nm);
+    });
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& file) {
+  YamlMap map(parse_yaml(text, file), file, "the scene");
+  Scene scene;
+  scene.camera = read_camera(map.map("camera"));
+  scene.wavelengths_nm = map.has("wavelengths_nm") ? read_wavelengths(map) : visible_wavelengths();
+  YamlMap materials = map.map("materials");
+  for (const std::string& name : materials.keys()) scene.materials.push_back(read_material(name, materials.map(name)));
+  read_objects(map, scene);
+  if (map.has("environment")) {
+    YamlMap environment = map.map("environment");
+    scene.environment = read_emission(environment);
+    environment.finish();
+  }
+  map.finish();
+  check_materials(materials, scene);
+  at_line(map, "", [&] { check(scene); });
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& path) { return parse_scene(read_file(path), path.string()); }
+
+}  // namespace gonio
