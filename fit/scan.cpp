@@ -6,14 +6,13 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/number.h"
+#include "brdf/directions.h"
 #include "fit/csv.h"
 
 namespace gonio {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// Where each column stands; kNone = absent.
@@ -103,31 +102,30 @@ struct RowReader {
 };
 
 /// What a value of the file's quantity is multiplied by to give f_r.
-double to_brdf(const std::string& quantity, double theta_o) {
-  if (quantity == "brdf_cos") return 1 / std::cos(theta_o);
-  if (quantity == "reflectance_factor") return 1 / (180 * kDegree);
+double to_brdf(const std::string& quantity, double theta_o_deg) {
+  if (quantity == "brdf_cos") return 1 / cos_deg(theta_o_deg);
+  if (quantity == "reflectance_factor") return 1 / kPi<double>;
   return 1;
 }
 
 /// false when the row is at 90° and therefore left out (every one of its cells has been checked).
 bool read_row(const RowReader& cell, const Columns& columns, const Measurement& scan, ScanPoint& point) {
-  const double theta_i_deg = cell.zenith(columns.theta_i), theta_o_deg = cell.zenith(columns.theta_o);
-  point.theta_i = theta_i_deg * kDegree;
-  point.theta_o = theta_o_deg * kDegree;
-  point.phi_i = cell.number(columns.phi_i) * kDegree;
-  point.phi_o = cell.number(columns.phi_o) * kDegree;
+  point.theta_i_deg = cell.zenith(columns.theta_i);
+  point.theta_o_deg = cell.zenith(columns.theta_o);
+  point.phi_i_deg = cell.number(columns.phi_i);
+  point.phi_o_deg = cell.number(columns.phi_o);
   point.wavelength_nm = cell.optional_number(columns.wavelength);
   if (point.has_wavelength())
     wavelength_in_range(point.wavelength_nm, cell.file, cell.row.line);
   else if (scan.wavelength_nm)
     point.wavelength_nm = *scan.wavelength_nm;
-  const double scale = to_brdf(scan.quantity, point.theta_o);
+  const double scale = to_brdf(scan.quantity, point.theta_o_deg);
   point.f_per_sr = cell.number(columns.f) * scale;
   point.f_std_per_sr = cell.optional_number(columns.f_std) * scale;
   if (point.f_std_per_sr < 0)
     throw input_error("{}:{}: brdf_std_per_sr is negative; expected 0 or more", cell.file, cell.row.line);
   for (const std::size_t at : columns.mueller) point.mueller.push_back(cell.optional_number(at));
-  if (theta_i_deg == 90 || theta_o_deg == 90) return false;
+  if (point.theta_i_deg == 90 || point.theta_o_deg == 90) return false;
   if (!std::isfinite(point.f_per_sr))
     throw input_error("{}:{}: brdf_per_sr is {}; expected a value that stays finite as a BRDF", cell.file,
                       cell.row.line, cell.row.cells[columns.f]);
@@ -136,7 +134,7 @@ bool read_row(const RowReader& cell, const Columns& columns, const Measurement& 
 
 /// Each incidence angle that occurs (to 1e-6°), or 10° bins where there are too many to be a series.
 void group_by_incidence(Measurement& scan) {
-  const auto rounded = [](const ScanPoint& p) { return std::round(p.theta_i / kDegree * 1e6) / 1e6; };
+  const auto rounded = [](const ScanPoint& p) { return std::round(p.theta_i_deg * 1e6) / 1e6; };
   std::set<double> distinct;
   for (const ScanPoint& point : scan.points) distinct.insert(rounded(point));
   scan.incidences_binned = distinct.size() > Measurement::kMostIncidences;

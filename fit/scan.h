@@ -12,9 +12,9 @@ namespace gonio {
 
 inline constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
 
-/// One row of a scan. Angles in radians; i = towards the light, o = towards the eye.
+/// One row of a scan. i = towards the light, o = towards the eye; degrees as in the file, zenith angles below 90.
 struct ScanPoint {
-  double theta_i = 0, phi_i = 0, theta_o = 0, phi_o = 0;
+  double theta_i_deg = 0, phi_i_deg = 0, theta_o_deg = 0, phi_o_deg = 0;
   double wavelength_nm = kNotStated;
   double f_per_sr = 0;  ///< f_r in sr⁻¹, whatever quantity the file holds (for `relative` in units of its own)
   double f_std_per_sr = kNotStated;  ///< standard deviation stated by the measurement
@@ -22,6 +22,7 @@ struct ScanPoint {
   std::size_t incidence = 0;    ///< index into Measurement::incidences_deg
 
   bool has_wavelength() const { return wavelength_nm == wavelength_nm; }
+  double phi_deg() const { return phi_o_deg - phi_i_deg; }  ///< 180 = mirror side
 };
 
 /// A goniophotometric scan and what is known of it. Empty text and empty optionals are "not stated".

@@ -1,0 +1,198 @@
+#include "fit/fit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <set>
+
+#include "base/error.h"
+#include "fit/fitted_material.h"
+#include "fit/prepare.h"
+#include "fit/solver.h"
+#include "fit/start.h"
+#include "fit/uncertainty.h"
+#include "fit/verdict.h"
+
+namespace gonio {
+namespace {
+
+/// Every start solved; starts share nothing, so that neither their number nor the threads change any of them.
+std::vector<Solution> solve_all(const FitProblem& problem, const FitRequest& request) {
+  std::vector<Solution> solutions(static_cast<std::size_t>(request.starts));
+  std::mutex mutex;
+  int done = 0;
+  tbb::parallel_for(0, request.starts, [&](int start) {
+    solutions[static_cast<std::size_t>(start)] =
+        solve(problem, improve_start(problem, start_point(problem, start, request.seed)));
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (request.progress) request.progress(done, request.starts);
+  });
+  return solutions;
+}
+
+const Solution& best_of(const std::vector<Solution>& solutions) {
+  const auto better = [](const Solution& a, const Solution& b) {
+    if (a.converged != b.converged) return a.converged;
+    return std::isfinite(a.cost) && (a.cost < b.cost || !std::isfinite(b.cost));
+  };
+  return *std::min_element(solutions.begin(), solutions.end(), better);
+}
+
+/// Minima are told apart by their cost: along an undetermined direction one minimum has many parameters.
+int count_minima(const std::vector<Solution>& solutions, std::size_t points) {
+  std::vector<double> costs;
+  for (const Solution& s : solutions)
+    if (s.converged) costs.push_back(s.cost);
+  std::sort(costs.begin(), costs.end());
+  int minima = 0;
+  double last = -1;
+  for (const double cost : costs) {
+    if (last < 0 || cost - last > 1e-6 * cost + 1e-18 * static_cast<double>(points)) ++minima;
+    last = cost;
+  }
+  return minima;
+}
+
+/// kd or ks that ran to the lower end of the logarithmic box: 0 itself is tried, and kept where it is no worse.
+std::optional<std::size_t> try_zero(FitProblem& problem, Solution& solution) {
+  for (std::size_t i = 0; i < problem.free.size() && problem.free.size() > 1; ++i) {
+    if (!problem.free[i].linear || solution.x[i] > std::log(problem.free[i].lo) + 1e-9) continue;
+    FitProblem without = problem;
+    without.values[problem.free[i].place] = 0;
+    without.free.erase(without.free.begin() + static_cast<std::ptrdiff_t>(i));
+    std::vector<double> x = solution.x;
+    x.erase(x.begin() + static_cast<std::ptrdiff_t>(i));
+    Solution next = solve(without, std::move(x));
+    if (!next.converged || !(next.cost <= solution.cost)) continue;
+    const std::size_t place = problem.free[i].place;
+    problem = std::move(without);
+    solution = std::move(next);
+    return place;
+  }
+  return std::nullopt;
+}
+
+FittedParameter from_box(const ParameterInfo& info, double value) {
+  FittedParameter p;
+  p.name = info.name, p.unit = info.unit, p.value = p.lo95 = p.hi95 = value;
+  return p;
+}
+
+void store_parameters(const FitProblem& problem, const Solution& solution, const Uncertainty& errors,
+                      std::optional<std::size_t> at_zero, FitResult& result) {
+  const auto& infos = problem.model.info().parameters;
+  std::vector<std::optional<FittedParameter>> fitted(infos.size());
+  std::optional<FittedParameter> n;
+  for (std::size_t i = 0; i < problem.free.size(); ++i) {
+    const FreeParameter& box = problem.free[i];
+    FittedParameter p;
+    p.name = box.name, p.unit = box.unit, p.value = std::exp(solution.x[i]);
+    p.at_bound = errors.at_bound[i], p.identifiable = errors.identifiable[i];
+    p.lo95 = box.lo, p.hi95 = box.hi;
+    const double log_error = errors.standard_error[i];
+    if (std::isfinite(log_error)) {
+      p.standard_error = p.value * log_error;
+      p.lo95 = p.value * std::exp(-errors.t95 * log_error), p.hi95 = p.value * std::exp(errors.t95 * log_error);
+    }
+    if (p.at_bound) result.warnings.push_back(fmt::format("{} is at the bound of its box ({:.6g})", p.name, p.value));
+    (box.place == FreeParameter::kIndex ? n : fitted[box.place]) = p;
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    FittedParameter p = fitted[i].value_or(from_box(infos[i], problem.values[i]));
+    if (!fitted[i]) p.held = at_zero != i, p.at_bound = at_zero == i;
+    if (at_zero == i) p.hi95 = infos[i].fit_lo, result.warnings.push_back(fmt::format("{} is at its bound, 0", p.name));
+    result.parameters.push_back(p);
+  }
+  if (n) result.parameters.push_back(*n);
+}
+
+void store_correlation(const FitProblem& problem, const Uncertainty& errors, FitResult& result) {
+  const auto count = static_cast<Eigen::Index>(problem.free.size());
+  for (const FreeParameter& box : problem.free) result.correlation_names.push_back(box.name);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    result.correlation.emplace_back();
+    for (Eigen::Index j = 0; j < count; ++j) result.correlation.back().push_back(errors.correlation(i, j));
+  }
+  result.condition = errors.condition;
+  result.warnings.insert(result.warnings.end(), errors.warnings.begin(), errors.warnings.end());
+}
+
+void store_points(const Measurement& scan, const Prepared& ready, const FitProblem& problem,
+                  const std::vector<double>& x, FitResult& result) {
+  const std::vector<double> fitted = problem.predict(x, ready.points);
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const ScanPoint& p = scan.points[i];
+    result.points.push_back({p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.wavelength_nm, p.f_per_sr, fitted[i],
+                             p.incidence, ready.used[i], ready.held_out[i]});
+  }
+  for (const double theta_i_deg : scan.incidences_deg) {
+    result.by_incidence.emplace_back();
+    result.by_incidence.back().theta_i_deg = theta_i_deg;
+  }
+}
+
+}  // namespace
+
+const FittedParameter* FitResult::find(std::string_view parameter) const {
+  const auto at = std::find_if(parameters.begin(), parameters.end(), [&](auto& p) { return p.name == parameter; });
+  return at == parameters.end() ? nullptr : &*at;
+}
+
+double FitResult::value(std::string_view parameter) const {
+  if (const FittedParameter* p = find(parameter)) return p->value;
+  throw input_error("{}: no parameter of this fit of {}", parameter, model.info().name);
+}
+
+std::vector<double> FitResult::values() const {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < model.info().parameters.size(); ++i) all.push_back(parameters[i].value);
+  return all;
+}
+
+std::optional<double> FitResult::index() const {
+  const FittedParameter* p = find("n");
+  return p ? std::optional(p->value) : std::nullopt;
+}
+
+FitResult fit(const Measurement& measurement, const FitRequest& request) {
+  if (request.starts < 1) throw input_error("starts {}: too few; expected 1 or more", request.starts);
+  FitResult result;
+  Prepared ready = prepare(measurement, request, result);
+  const std::vector<Solution> solutions = solve_all(ready.problem, request);
+  Solution best = best_of(solutions);
+  result.starts = request.starts;
+  result.starts_converged =
+      static_cast<int>(std::count_if(solutions.begin(), solutions.end(), [](auto& s) { return s.converged; }));
+  result.distinct_minima = count_minima(solutions, ready.problem.points.size());
+  for (const Solution& s : solutions) result.refused_evaluations += s.rejected;
+  result.converged = best.converged;
+
+  const std::optional<std::size_t> at_zero = try_zero(ready.problem, best);
+  const Uncertainty errors = uncertainty(ready.problem, best);
+  store_parameters(ready.problem, best, errors, at_zero, result);
+  store_correlation(ready.problem, errors, result);
+  store_points(measurement, ready, ready.problem, best.x, result);
+  judge(ready, result);
+  if (!result.converged) result.warnings.push_back("no start converged: the values are those of the best one");
+  if (result.refused_evaluations > 0)
+    result.warnings.push_back(fmt::format("{} evaluations were not finite and refused", result.refused_evaluations));
+  return result;
+}
+
+std::vector<double> predict(const FitResult& result, double theta_i_deg, std::span<const double> theta_o_deg,
+                            double phi_deg) {
+  const FittedMaterial material = fitted_material(result);
+  const std::optional<double> nm =
+      result.wavelength_nm.empty() ? material.wavelength({}) : result.wavelength_nm.front();
+  const Brdf<double> brdf = material.brdf();
+  const Interface<double> surface = material.surface(nm);
+  std::vector<double> f;
+  for (const double theta : theta_o_deg)
+    f.push_back(evaluate(brdf, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3));
+  return f;
+}
+
+}  // namespace gonio

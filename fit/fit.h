@@ -1,0 +1,104 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "brdf/models.h"
+#include "fit/problem.h"
+#include "fit/scan.h"
+
+namespace gonio {
+
+/// What is left out of the fit, to judge it by.
+enum class HoldOut { middle_incidence, none, chosen };
+
+struct FitRequest {
+  ModelSpec model;
+  Metric metric = Metric::log;
+  std::optional<Weighting> weighting;  ///< default: none under log, cosine under linear and cuberoot
+  std::optional<double>
+      floor_per_sr;  ///< f0; default: the smallest stated standard deviation, else 1e-3 of the smallest value
+  int starts = 16;
+  std::uint64_t seed = 1;
+  HoldOut hold_out = HoldOut::middle_incidence;  ///< middle_incidence leaves nothing out below three incidence angles
+  double hold_out_deg = 0;                       ///< for HoldOut::chosen: the nearest incidence angle
+  std::optional<std::string> material;           ///< instead of the measurement's; `perfect` reflects 1
+  bool free_n = false;                           ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
+  std::map<std::string, double> held;            ///< parameters held at a value
+  std::function<void(int done, int count)> progress;  ///< called from any thread, one call at a time
+};
+
+/// A fitted number. Intervals are Student's, 95 %, in the logarithm of the parameter.
+struct FittedParameter {
+  std::string name, unit;
+  double value = 0;
+  std::optional<double> standard_error;  ///< absent when held, at a bound or not identifiable
+  double lo95 = 0, hi95 = 0;             ///< the search box where there is no standard error
+  bool held = false, at_bound = false, identifiable = true;
+};
+
+/// Errors of a set of points: rms in the metric's own unit, rms_log10 of log10((f + f0)/(y + f0)) over positive y.
+struct Residuals {
+  int points = 0;
+  double rms = 0, rms_log10 = 0, mean_log10 = 0;  ///< mean_log10 > 0: the model is too bright
+};
+struct IncidenceResiduals : Residuals {
+  double theta_i_deg = 0;
+  bool held_out = false;
+};
+
+/// A point as fitted, for plots and tables.
+struct FittedPoint {
+  double theta_i_deg = 0, theta_o_deg = 0, phi_deg = 0, wavelength_nm = kNotStated;
+  double measured_per_sr = 0, fitted_per_sr = 0;
+  std::size_t incidence = 0;
+  bool used = false, held_out = false;
+};
+
+struct FitResult {
+  ModelSpec model;
+  Metric metric = Metric::log;
+  Weighting weighting = Weighting::none;
+  double floor_per_sr = 0;
+
+  std::optional<std::string> material;  ///< full database id
+  std::vector<double> wavelength_nm;    ///< empty: not stated
+  std::optional<double> assumed_wavelength_nm;
+  std::vector<FittedParameter> parameters;  ///< in the model's order, then n where it was fitted
+  bool converged = false;
+
+  Residuals all;
+  std::vector<IncidenceResiduals> by_incidence;
+  std::optional<IncidenceResiduals> held_out;
+  double neighbour_correlation = 0;  ///< of residuals next to each other in the scan; 0 for independent errors
+  std::vector<std::string> correlation_names;
+  std::vector<std::vector<double>> correlation;
+  double condition = 0;  ///< largest singular value of the column-scaled Jacobian over its smallest
+
+  int starts = 0, starts_converged = 0, distinct_minima = 0, refused_evaluations = 0;
+  int points_used = 0;
+  std::map<std::string, int> left_out;
+  std::vector<std::string> warnings;
+  std::vector<FittedPoint> points;  ///< all of the scan, in its order
+
+  std::string measurement_id, name, source, licence, quantity;
+
+  const FittedParameter* find(std::string_view parameter) const;
+  double value(std::string_view parameter) const;  ///< InputError when there is none
+  std::vector<double> values() const;              ///< in the order of the model's parameters
+  std::optional<double> index() const;             ///< n, where it was fitted
+};
+
+/// Fits a model to a scan. InputError for what cannot be fitted (no wavelength where one is needed, an unknown
+/// material, a wavelength outside the material's range, no point left).
+FitResult fit(const Measurement& measurement, const FitRequest& request);
+
+/// The fitted f_r at the angles given (degrees, zenith angles below 90, phi = phi_o - phi_i): curves for plots. The
+/// wavelength is that of the fit (the first one, or the assumed one).
+std::vector<double> predict(const FitResult& result, double theta_i_deg, std::span<const double> theta_o_deg,
+                            double phi_deg);
+
+}  // namespace gonio

@@ -1,0 +1,78 @@
+#include "fit/fit_json.h"
+
+#include <cmath>
+
+namespace gonio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+Json stated(const std::string& text) { return text.empty() ? Json("not stated") : Json(text); }
+/// JSON knows no infinity.
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json parameter(const FittedParameter& p) {
+  Json json{{"value", p.value},       {"standard_error", or_null(p.standard_error)},
+            {"unit", p.unit},         {"interval95", {p.lo95, p.hi95}},
+            {"at_bound", p.at_bound}, {"identifiable", p.identifiable}};
+  if (p.held) json["held"] = true;
+  return json;
+}
+
+Json residuals_of(const Residuals& r) {
+  return {{"points", r.points}, {"rms", r.rms}, {"rms_log10", r.rms_log10}, {"mean_log10", r.mean_log10}};
+}
+
+Json incidence(const IncidenceResiduals& r) {
+  Json json{{"theta_i_deg", r.theta_i_deg}};
+  json.update(residuals_of(r));
+  json["held_out"] = r.held_out;
+  return json;
+}
+
+Json residuals(const FitResult& result) {
+  Json json{{"rms", result.all.rms}, {"rms_log10", result.all.rms_log10}, {"mean_log10", result.all.mean_log10}};
+  json["by_scan"] = Json::array();
+  for (const IncidenceResiduals& r : result.by_incidence) json["by_scan"].push_back(incidence(r));
+  json["held_out"] = result.held_out ? incidence(*result.held_out) : Json(nullptr);
+  json["neighbour_correlation"] = result.neighbour_correlation;
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const FitResult& result) {
+  Json json{{"gonio_fit", 1}, {"model", result.model.info().name}, {"variant", result.model.variant()}};
+  json["options"] = Json::object();
+  if (!result.model.info().shadowings.empty()) json["options"]["shadowing"] = name_of(result.model.shadowing);
+  json["material"] = or_null(result.material);
+  json["wavelength_nm"] = result.wavelength_nm;
+  json["assumed_wavelength_nm"] = or_null(result.assumed_wavelength_nm);
+  json["parameters"] = Json::object();
+  for (const FittedParameter& p : result.parameters) json["parameters"][p.name] = parameter(p);
+  json["metric"] = name_of(result.metric);
+  json["weighting"] = name_of(result.weighting);
+  json["floor_per_sr"] = result.floor_per_sr;
+  json["residuals"] = residuals(result);
+  json["correlation"] = {
+      {"names", result.correlation_names}, {"matrix", result.correlation}, {"condition", finite(result.condition)}};
+  json["starts"] = {{"count", result.starts},
+                    {"converged", result.starts_converged},
+                    {"distinct_minima", result.distinct_minima},
+                    {"refused_evaluations", result.refused_evaluations}};
+  json["converged"] = result.converged;
+  json["points"] = {{"used", result.points_used}, {"left_out", Json(result.left_out)}};
+  json["warnings"] = result.warnings;
+  json["source"] = {{"measurement", result.measurement_id},
+                    {"name", stated(result.name)},
+                    {"source", stated(result.source)},
+                    {"licence", stated(result.licence)},
+                    {"quantity", result.quantity}};
+  return json;
+}
+
+}  // namespace gonio

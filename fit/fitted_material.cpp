@@ -1,0 +1,131 @@
+#include "fit/fitted_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "fit/fit.h"
+
+namespace gonio {
+namespace {
+
+using nlohmann::json;
+
+/// One fit.json being read: every complaint names the file and what was expected.
+struct FitReader {
+  const std::string& file;
+
+  const json& at(const json& object, const char* key, const char* expected) const {
+    if (!object.is_object() || !object.contains(key))
+      throw input_error("{}: {} is missing; expected {}", file, key, expected);
+    return object.at(key);
+  }
+  std::string text(const json& object, const char* key) const {
+    const json& value = at(object, key, "a name");
+    if (!value.is_string()) throw input_error("{}: {} is no text; expected a name", file, key);
+    return value.get<std::string>();
+  }
+  double number(const json& value, std::string_view what) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+      throw input_error("{}: {} is no number; expected a finite one", file, what);
+    return value.get<double>();
+  }
+  void options(const json& root, FittedMaterial& material) const {
+    if (root.contains("variant")) set_variant(material.model, text(root, "variant"));
+    if (!root.contains("options")) return;
+    const json& options = root.at("options");
+    if (!options.is_object()) throw input_error("{}: options is no list of names; expected {{\"shadowing\": …}}", file);
+    if (options.contains("shadowing")) set_shadowing(material.model, text(options, "shadowing"));
+  }
+  void parameters(const json& root, FittedMaterial& material) const {
+    const json& given = at(root, "parameters", "the fitted values");
+    if (!given.is_object())
+      throw input_error("{}: parameters is no list of names; expected name and value of each", file);
+    for (const ParameterInfo& info : material.model.info().parameters) {
+      const std::string name(info.name);
+      const double value = number(at(at(given, name.c_str(), "a parameter of the model"), "value", "a number"), name);
+      const bool relative = root.contains("source") && root.at("source").is_object() &&
+                            root.at("source").value("quantity", json()) == "relative";
+      if (!(value >= info.lo && (value <= info.hi || (info.linear && relative))))
+        throw input_error("{}: {} is {}; expected {} to {}", file, name, value, info.lo, info.hi);
+      material.values.push_back(value);
+    }
+    if (!given.contains("n")) return;
+    material.n = number(at(given.at("n"), "value", "a number"), "n");
+    if (!(*material.n > 0)) throw input_error("{}: n is {}; expected more than 0", file, *material.n);
+  }
+  void wavelengths(const json& root, FittedMaterial& material) const {
+    const json& given = at(root, "wavelength_nm", "a list (empty = not stated)");
+    if (!given.is_array()) throw input_error("{}: wavelength_nm is no list; expected one (empty = not stated)", file);
+    for (const json& value : given) material.wavelength_nm.push_back(number(value, "wavelength_nm"));
+    std::sort(material.wavelength_nm.begin(), material.wavelength_nm.end());
+    if (root.contains("assumed_wavelength_nm") && !root.at("assumed_wavelength_nm").is_null())
+      material.assumed_wavelength_nm = number(root.at("assumed_wavelength_nm"), "assumed_wavelength_nm");
+  }
+};
+
+}  // namespace
+
+std::optional<double> FittedMaterial::wavelength(std::optional<double> asked_nm) const {
+  const bool from_database = material && *material != "perfect" && !n;
+  if (asked_nm) {
+    constexpr double kSame = 1e-6;  // nm
+    const bool inside = wavelength_nm.empty() || from_database ||
+                        (*asked_nm >= wavelength_nm.front() - kSame && *asked_nm <= wavelength_nm.back() + kSame);
+    if (!inside)
+      throw input_error("{} nm: outside the fitted wavelengths; expected {} to {} nm", *asked_nm, wavelength_nm.front(),
+                        wavelength_nm.back());
+    return asked_nm;
+  }
+  if (wavelength_nm.size() == 1) return wavelength_nm.front();
+  if (assumed_wavelength_nm) return assumed_wavelength_nm;
+  if (!from_database && !model.info().needs_wavelength) return std::nullopt;
+  if (wavelength_nm.empty()) throw input_error("the wavelength of the fit is not stated; expected --at");
+  throw input_error("the fit has {} wavelengths; expected --at with one of {}", wavelength_nm.size(),
+                    fmt::join(wavelength_nm, ", "));
+}
+
+Interface<double> FittedMaterial::surface(std::optional<double> at_nm) const {
+  if (n) return {*n, 0.0};
+  if (!material || model.id == ModelId::lambert) return perfect_interface<double>();
+  const SurfaceMaterial surface(*material);
+  if (surface.is_perfect()) return perfect_interface<double>();
+  if (!at_nm) throw input_error("n and k of {} need a wavelength; expected --at", *material);
+  return surface.at(*at_nm);
+}
+
+FittedMaterial fitted_material(const FitResult& result) {
+  return {result.model,   result.values(),      result.material,
+          result.index(), result.wavelength_nm, result.assumed_wavelength_nm};
+}
+
+FittedMaterial parse_fit(std::string_view text, const std::string& file) {
+  const json root = json::parse(text, nullptr, false);
+  if (root.is_discarded()) throw input_error("{}: is no complete JSON; expected a fit.json", file);
+  const FitReader reader{file};
+  const json& version = reader.at(root, "gonio_fit", "a fit.json of version 1");
+  if (version != 1) throw input_error("{}: gonio_fit is not 1; expected a fit.json of version 1", file);
+  FittedMaterial material;
+  try {
+    material.model.id = model(reader.text(root, "model")).id;
+    reader.options(root, material);
+  } catch (const InputError& error) {
+    const std::string_view message = error.what();
+    if (message.starts_with(file)) throw;
+    throw input_error("{}: {}", file, message);
+  }
+  reader.parameters(root, material);
+  reader.wavelengths(root, material);
+  const json& id = reader.at(root, "material", "a database id or null");
+  if (!id.is_null()) {
+    if (!id.is_string()) throw input_error("{}: material is no text; expected a database id or null", file);
+    material.material = SurfaceMaterial(id.get<std::string>()).id();
+  }
+  return material;
+}
+
+FittedMaterial read_fit(const std::filesystem::path& path) { return parse_fit(read_file(path), path.string()); }
+
+}  // namespace gonio

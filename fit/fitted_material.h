@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/brdf.h"
+#include "materials/database.h"
+
+namespace gonio {
+
+struct FitResult;
+
+/// What a fit leaves behind for those who use the material: model, values, and where its n and k come from.
+struct FittedMaterial {
+  ModelSpec model;
+  std::vector<double> values;                   ///< in the order of the model's parameters
+  std::optional<std::string> material;          ///< full database id; none: F = 1, or n as fitted
+  std::optional<double> n;                      ///< fitted refractive index (k = 0)
+  std::vector<double> wavelength_nm;            ///< of the fit, increasing; empty = not stated
+  std::optional<double> assumed_wavelength_nm;  ///< where n and k were taken although the wavelength is not stated
+
+  Brdf<double> brdf() const { return make_brdf<double>(model, values); }
+
+  /// The wavelength to evaluate at: the one asked for, else the fit's only one, else the assumed one. InputError where
+  /// the fit does not reach (other than its own wavelengths, unless n and k come from the database) or where one is
+  /// needed and none is known. No value: the material looks the same at every wavelength.
+  std::optional<double> wavelength(std::optional<double> asked_nm) const;
+
+  /// n and k there (InputError outside the material's range).
+  Interface<double> surface(std::optional<double> wavelength_nm) const;
+};
+
+FittedMaterial fitted_material(const FitResult& result);
+
+/// Reads a fit.json strictly; InputError `file: …` for one that is not complete or not of this version.
+FittedMaterial read_fit(const std::filesystem::path& path);
+FittedMaterial parse_fit(std::string_view json, const std::string& file);
+
+}  // namespace gonio

@@ -1,0 +1,74 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/brdf.h"
+#include "fit/scan.h"
+
+namespace gonio {
+
+/// How measured and modelled values are compared, point by point. f0 (per sr) keeps the logarithm finite.
+///   log       ln(f + f0) - ln(y + f0)       linear    f - y       cuberoot  f^(1/3) - y^(1/3)
+enum class Metric { log, linear, cuberoot };
+/// `cosine` compares f·cos θ_o (what a detector of fixed aperture sees) instead of f; under `log` it would cancel.
+enum class Weighting { none, cosine };
+
+std::string_view name_of(Metric metric);
+std::string_view name_of(Weighting weighting);
+Metric metric_from(std::string_view name);        ///< InputError for an unknown name
+Weighting weighting_from(std::string_view name);  ///< InputError for an unknown name
+
+/// What every number type sees of a point.
+struct FitPoint {
+  Directions<double> directions;
+  Interface<double> surface;
+  double wavelength_um = 1;  ///< 1 where no wavelength is needed
+  double f_per_sr = 0;
+  double weight = 1;  ///< cos θ_o or 1
+};
+
+/// A parameter that the fit varies, on a logarithmic scale inside its box.
+struct FreeParameter {
+  static constexpr std::size_t kIndex = static_cast<std::size_t>(-1);  ///< `place` of the refractive index
+  std::size_t place = 0;                                               ///< in the model's parameters, or kIndex
+  std::string name, unit;
+  double lo = 0, hi = 0;
+  bool linear = false;  ///< kd or ks
+};
+
+/// A least-squares problem: points, model, metric, which parameters vary. x holds the logarithms of the free
+/// parameters. Values and derivatives both come from the model's own code (brdf/), evaluated with double or ceres::Jet.
+class FitProblem {
+ public:
+  ModelSpec model;
+  Metric metric = Metric::log;
+  double floor_per_sr = 0;  ///< f0
+  std::vector<FitPoint> points;
+  std::vector<FreeParameter> free;
+  std::vector<double> values;  ///< of all the model's parameters; the free ones are replaced
+
+  /// f_r of each point.
+  std::vector<double> predict(std::span<const double> x) const { return predict(x, points); }
+  std::vector<double> predict(std::span<const double> x, std::span<const FitPoint> at) const;
+
+  /// Residuals and, unless null, their derivatives (row-major, points × free). false when any number is not finite.
+  bool residuals(std::span<const double> x, double* residual, double* jacobian) const;
+
+  /// ψ of the metric: what is compared. The cosine is part of it, the floor too.
+  double compared(double f_per_sr, const FitPoint& point) const;
+  /// dψ/df.
+  double compared_slope(double f_per_sr, const FitPoint& point) const;
+
+  /// f_r of each point with other kd and ks than those of x: (1, 0) gives the diffuse part, (0, 1) the lobe.
+  std::vector<double> part(std::span<const double> x, double kd, double ks) const;
+
+  std::vector<double> values_at(std::span<const double> x) const;   ///< all the model's parameters
+  std::optional<double> index_at(std::span<const double> x) const;  ///< n, where it is free
+};
+
+}  // namespace gonio
