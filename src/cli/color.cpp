@@ -20,31 +20,24 @@ struct ColorArguments {
 };
 
 struct NamedColor {
-  std::string id;
+  std::string id, light, observer;  ///< full ids
   ColorSum sum;
   ColorValues values;
 };
 
 NamedColor color_by_id(const std::string& id, const ColorArguments& arguments) {
   const Database& database = Database::bundled();
-  const Spectrum light = light_of(database.find(arguments.light));
-  const Observer observer = observer_of(database.find(arguments.observer));
-  const std::string full_id = id == "perfect" ? id : database.full_id(id);
-  try {
-    const ColorSum sum = color_of(factor_of(id, database), light, observer, arguments.allow_partial);
-    return {full_id, sum, color_values(sum)};
-  } catch (const InputError& error) {
-    const std::string_view text = error.what();
-    if (text.starts_with(full_id)) throw;
-    throw input_error("{}: {}", full_id, text);
-  }
+  const Entry &light = database.find(arguments.light), &observer = database.find(arguments.observer);
+  const Factor data = factor_of(id, database);
+  const ColorSum sum = color_of(data, light_of(light), observer_of(observer), arguments.allow_partial);
+  return {data.name, light.id, observer.id, sum, color_values(sum)};
 }
 
-Json color_json(const NamedColor& color, const ColorArguments& arguments) {
+Json color_json(const NamedColor& color) {
   const ColorValues& v = color.values;
   return {{"id", color.id},
-          {"light", arguments.light},
-          {"observer", arguments.observer},
+          {"light", color.light},
+          {"observer", color.observer},
           {"range_nm", {color.sum.lo_nm, color.sum.hi_nm}},
           {"share_left_out", color.sum.share_left_out},
           {"XYZ", {v.xyz.x, v.xyz.y, v.xyz.z}},
@@ -53,11 +46,10 @@ Json color_json(const NamedColor& color, const ColorArguments& arguments) {
           {"Luv", {v.luv.l, v.luv.u, v.luv.v}}};
 }
 
-std::string color_text(const NamedColor& color, const ColorArguments& arguments) {
+std::string color_text(const NamedColor& color) {
   const ColorValues& v = color.values;
   return fmt::format("{} under {}, observer {}, {:g} to {:g} nm ({:.3g} % of the visible power left out)\n", color.id,
-                     arguments.light, arguments.observer, color.sum.lo_nm, color.sum.hi_nm,
-                     100 * color.sum.share_left_out) +
+                     color.light, color.observer, color.sum.lo_nm, color.sum.hi_nm, 100 * color.sum.share_left_out) +
          fmt::format("  XYZ     {:.4f} {:.4f} {:.4f}\n", v.xyz.x, v.xyz.y, v.xyz.z) +
          fmt::format("  xyY     {:.5f} {:.5f} {:.4f}\n", v.xy.x, v.xy.y, v.xyz.y) +
          fmt::format("  L*a*b*  {:.3f} {:.3f} {:.3f}\n", v.lab.l, v.lab.a, v.lab.b) +
@@ -66,7 +58,7 @@ std::string color_text(const NamedColor& color, const ColorArguments& arguments)
 
 void print_color(const ColorArguments& arguments, bool json) {
   const NamedColor color = color_by_id(arguments.id, arguments);
-  std::cout << (json ? color_json(color, arguments).dump(2) + "\n" : color_text(color, arguments));
+  std::cout << (json ? color_json(color).dump(2) + "\n" : color_text(color));
 }
 
 void print_difference(const ColorArguments& arguments, bool json) {
@@ -77,11 +69,11 @@ void print_difference(const ColorArguments& arguments, bool json) {
     const Json out{{"delta_E_ab", difference.ab},
                    {"delta_E_uv", difference.uv},
                    {"delta_E_2000", difference.e2000},
-                   {"colors", {color_json(p, arguments), color_json(q, arguments)}}};
+                   {"colors", {color_json(p), color_json(q)}}};
     std::cout << out.dump(2) << '\n';
     return;
   }
-  std::cout << color_text(p, arguments) << color_text(q, arguments)
+  std::cout << color_text(p) << color_text(q)
             << fmt::format("difference: Delta E_ab {:.3f}, Delta E_uv {:.3f}, Delta E_2000 {:.3f}\n", difference.ab,
                            difference.uv, difference.e2000);
 }

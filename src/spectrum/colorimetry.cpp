@@ -35,9 +35,8 @@ ColorSum color_of(const Factor& data, const Spectrum& light, const Observer& obs
   const double hi = std::floor(std::min({data.hi_nm, light.hi_nm(), observer.hi_nm()}));
   if (!(lo <= hi))
     throw input_error(
-        "data ({} to {} nm), light ({} to {} nm) and observer ({} to {} nm) have no wavelength in common; expected "
-        "some",
-        data.lo_nm, data.hi_nm, light.lo_nm(), light.hi_nm(), observer.lo_nm(), observer.hi_nm());
+        "{} ({} to {} nm), light ({} to {} nm) and observer ({} to {} nm) share no wavelength; expected some",
+        data.name, data.lo_nm, data.hi_nm, light.lo_nm(), light.hi_nm(), observer.lo_nm(), observer.hi_nm());
   Xyz<double> sum{0, 0, 0}, white{0, 0, 0};
   for (double nm = lo; nm <= hi; ++nm) {
     const Xyz<double> eye = observer.at(nm);
@@ -45,13 +44,15 @@ ColorSum color_of(const Factor& data, const Spectrum& light, const Observer& obs
     add(white, eye, power);
     add(sum, eye, power * data.at(nm));
   }
-  if (!(white.y > 0)) throw input_error("the light has no visible power from {} to {} nm; expected some", lo, hi);
+  if (!(white.y > 0))
+    throw input_error("{}: the light has no visible power from {} to {} nm; expected some", data.name, lo, hi);
   const double left_out = std::max(0.0, 1 - white.y / whole_luminance(light, observer));
   if (left_out > kMostLeftOut && !allow_partial)
     throw input_error(
-        "the common range {} to {} nm leaves out {:.2f} % of the visible power; expected at most {:g} % (allow with "
+        "{}: the common range {} to {} nm leaves out {:.2f} % of the visible power; expected at most {:g} % (allow "
+        "with "
         "--allow-partial)",
-        lo, hi, 100 * left_out, 100 * kMostLeftOut);
+        data.name, lo, hi, 100 * left_out, 100 * kMostLeftOut);
   const double scale = 100 / white.y;
   return {scaled(sum, scale), scaled(white, scale), lo, hi, left_out};
 }

@@ -2,6 +2,7 @@
 // Sums of a spectrum over an observer. They run at whole nanometres, linear between the points of each table (CIE
 // 015:2018).
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "spectrum/color.h"
@@ -22,6 +23,7 @@ struct Observer {
 struct Factor {
   double lo_nm, hi_nm;
   std::function<double(double nm)> at;
+  std::string name = "data";  ///< for messages
 };
 
 struct ColorSum {
