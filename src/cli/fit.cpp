@@ -1,0 +1,191 @@
+#include "fit/fit.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "fit/fit_json.h"
+#include "fit/plots.h"
+
+namespace gonio::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct FitArguments {
+  std::string measurement, metric = "log", weighting, variant, hold_out = "middle", material, floor, out;
+  std::vector<std::string> models, settings, free;
+  int starts = 16;
+};
+
+/// Progress on stderr: a line rewritten on a terminal, else one line every few seconds; nothing below a second.
+class Progress {
+ public:
+  explicit Progress(std::string what) : what_(std::move(what)) {}
+  ~Progress() {
+    if (shown_ && terminal_) std::cerr << "\r\033[K";
+  }
+  void operator()(int done, int count) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < (terminal_ ? std::chrono::seconds(1) : std::chrono::seconds(5)) && !(shown_ && terminal_)) return;
+    shown_ = true;
+    last_ = now;
+    std::cerr << fmt::format("{}{}: {} of {} starts{}", terminal_ ? "\r" : "", what_, done, count,
+                             terminal_ ? "" : "\n")
+              << std::flush;
+  }
+
+ private:
+  std::string what_;
+  bool terminal_ = ::isatty(STDERR_FILENO) == 1, shown_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// shadowing=…, variant=…, or a parameter to be held at a value (alpha = √2·m).
+void apply_setting(const std::string& setting, FitRequest& request) {
+  const std::size_t equals = setting.find('=');
+  if (equals == setting.npos) throw input_error("{}: no setting; expected name=value", setting);
+  const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
+  if (name == "shadowing") return set_shadowing(request.model, value);
+  if (name == "variant") return set_variant(request.model, value);
+  const double number = number_in(value, name);
+  const auto& parameters = request.model.info().parameters;
+  const bool has_m = std::any_of(parameters.begin(), parameters.end(), [](auto& p) { return p.name == "m"; });
+  if (name == "alpha" && has_m) {
+    if (!request.held.emplace("m", number / std::sqrt(2.0)).second)
+      throw input_error("alpha: m is given too; expected one of the two");
+    return;
+  }
+  request.model.info().index_of(name);  // refuses an unknown one
+  if (!request.held.emplace(name, number).second)
+    throw input_error("{}: given twice; expected once (alpha = sqrt(2) m)", name);
+}
+
+void apply_hold_out(const std::string& text, FitRequest& request) {
+  if (text == "middle") return;
+  request.hold_out = text == "none" ? HoldOut::none : HoldOut::chosen;
+  if (text != "none") request.hold_out_deg = number_in(text, "--hold-out");
+}
+
+FitRequest request_for(const FitArguments& arguments, const std::string& name, const Common& common) {
+  FitRequest request;
+  request.model.id = model(name).id;
+  request.metric = metric_from(arguments.metric);
+  if (!arguments.weighting.empty()) request.weighting = weighting_from(arguments.weighting);
+  if (!arguments.floor.empty()) request.floor_per_sr = number_in(arguments.floor, "--floor");
+  if (!arguments.variant.empty()) set_variant(request.model, arguments.variant);
+  if (!arguments.material.empty()) request.material = arguments.material;
+  for (const std::string& setting : arguments.settings) apply_setting(setting, request);
+  for (const std::string& parameter : arguments.free) {
+    if (parameter != "n") throw input_error("--free {}: cannot be freed; expected n", parameter);
+    request.free_n = true;
+  }
+  apply_hold_out(arguments.hold_out, request);
+  request.starts = arguments.starts;
+  request.seed = common.seed;
+  return request;
+}
+
+void print_card(const FitResult& result) {
+  std::cout << fmt::format("{} of {} ({})\n", result.model.info().name,
+                           result.name.empty() ? result.measurement_id : result.name,
+                           result.material  ? *result.material
+                           : result.index() ? "n fitted"
+                                            : "material not stated: F = 1");
+  for (const FittedParameter& p : result.parameters) {
+    const std::string error =
+        p.standard_error ? fmt::format(" +- {:.2g}  (95 %: {:.6g} to {:.6g})", *p.standard_error, p.lo95, p.hi95)
+        : p.held         ? " (held)"
+                         : "";
+    std::cout << fmt::format("  {:<15} {:.7g}{}{}{}{}\n", p.name, p.value, p.unit == "1" ? "" : " " + p.unit, error,
+                             p.at_bound ? "  at its bound" : "", p.identifiable ? "" : "  not identifiable");
+  }
+  std::cout << fmt::format(
+      "  rms {:.4g} ({} metric, weighting {}), rms_log10 {:.4g}, {} points, {} of {} starts converged\n",
+      result.all.rms, name_of(result.metric), name_of(result.weighting), result.all.rms_log10, result.points_used,
+      result.starts_converged, result.starts);
+  if (result.held_out)
+    std::cout << fmt::format("  left out: incidence {:g} degrees, {} points, rms_log10 {:.4g}\n",
+                             result.held_out->theta_i_deg, result.held_out->points, result.held_out->rms_log10);
+  for (const std::string& warning : result.warnings) std::cout << "  warning: " << warning << '\n';
+}
+
+/// One row a model, the best first in no particular order of trust: the reader judges by the held-out error.
+void print_summary(const std::vector<FitResult>& results) {
+  std::cout << fmt::format("\n{:<20} {:>12} {:>12} {:>12}\n", "model", "rms_log10", "held out", "converged");
+  for (const FitResult& r : results)
+    std::cout << fmt::format("{:<20} {:>12.4g} {:>12} {:>12}\n", r.model.info().name, r.all.rms_log10,
+                             r.held_out ? fmt::format("{:.4g}", r.held_out->rms_log10) : "none",
+                             r.converged ? "yes" : "no");
+}
+
+void write_result(const FitResult& result, const std::filesystem::path& folder) {
+  make_folder(folder);
+  write_plots(result, folder);
+  write_file(folder / "fit.json", to_json(result).dump(2) + "\n");
+}
+
+void run_fit(const FitArguments& arguments, Common& common) {
+  const Measurement scan = read_measurement(arguments.measurement);
+  for (const std::string& note : scan.notes) std::cerr << "note: " << note << '\n';
+  std::vector<FitRequest> requests;
+  for (const std::string& name : arguments.models) requests.push_back(request_for(arguments, name, common));
+  std::vector<FitResult> results;
+  for (FitRequest& request : requests) {
+    Progress progress(std::string(request.model.info().name));
+    request.progress = [&progress](int done, int count) { progress(done, count); };
+    results.push_back(fit(scan, request));
+  }
+  const std::filesystem::path out = arguments.out;
+  Json json = Json::array();
+  for (const FitResult& result : results) {
+    write_result(result, results.size() == 1 ? out : out / result.model.info().name);
+    json.push_back(to_json(result));
+    if (!common.json) print_card(result);
+    if (!result.converged) common.exit_code = 1;
+  }
+  if (results.size() > 1) write_file(out / "fits.json", json.dump(2) + "\n");
+  if (common.json)
+    std::cout << (results.size() == 1 ? json[0] : json).dump(2) << '\n';
+  else if (results.size() > 1)
+    print_summary(results);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app, Common& common) {
+  auto* command = app.add_subcommand("fit", "Fit reflection models to a goniophotometric scan");
+  command->footer(
+      "Example: gonio fit measurements/aluminium-merl --model torrance-sparrow --out out\n"
+      "Writes OUT/fit.json and plots of measured against fitted values (several models: a folder each, and "
+      "fits.json).\n"
+      "Metrics: log compares ln(f + f0), linear f*cos_o, cuberoot (f*cos_o)^(1/3). Exit 1: a fit did not converge.");
+  add_common(*command, common);
+  auto a = std::make_shared<FitArguments>();
+  command->add_option("measurement", a->measurement, "Folder (scan.csv + measurement.yaml) or CSV file")->required();
+  command->add_option("--model", a->models, "One or more models, see `gonio models`")->required();
+  command->add_option("--metric", a->metric, "log, linear or cuberoot")->capture_default_str();
+  command->add_option("--weighting", a->weighting, "none (default of log) or cosine (default of the others)");
+  command->add_option("--set", a->settings, "shadowing=NAME, variant=NAME, or PARAMETER=VALUE to hold it");
+  command->add_option("--variant", a->variant, "Variant of the model");
+  command->add_option("--material", a->material, "Database id instead of the measurement's; `perfect` reflects 1");
+  command->add_option("--free", a->free, "n: fit the refractive index (k = 0) where no material is known");
+  command->add_option(
+      "--floor", a->floor,
+      "f0 per sr of the log metric (default: smallest stated deviation, else 1e-3 of the smallest value)");
+  command->add_option("--starts", a->starts, "Number of starts")->check(CLI::Range(1, 4096))->capture_default_str();
+  command->add_option("--hold-out", a->hold_out, "Incidence angle in degrees to leave out of the fit; middle; none")
+      ->capture_default_str();
+  command->add_option("-o,--out", a->out, "Folder to write")->required();
+  command->callback([&common, a] { run_fit(*a, common); });
+}
+
+}  // namespace gonio::cli
