@@ -15,6 +15,9 @@ struct Outcome {
 /// Runs the built `gonio` with these arguments and this standard input.
 Outcome run_gonio(const std::vector<std::string>& arguments, std::string_view input = {});
 
+/// A file as bytes; empty when there is none.
+std::string content_of(const std::filesystem::path& path);
+
 /// A folder of its own for one test, removed at its end.
 class Scratch {
  public:

@@ -110,7 +110,6 @@ TEST_CASE("a measurement.yaml that cannot be used is refused", "[cli]") {
       {"", "name: a\nquantity: brdf\nwavelength_nm: -5\n", "wavelength_nm"},
       {"", "name: a\nquantity: brdf\nwavelength_nm: green\n", "green"},
       {"", "name: a\nquantity: brdf\nwavelength_nm: 550\nmaterial: unobtainium\n", "unobtainium"},
-      {"", "name: a\nquantity: brdf\nwavelength_nm: 99999\nmaterial: Au\n", "nm"},
       {"", kBinary, "measurement.yaml"},
   };
   for (const BadTable& bad : bad_yamls) {
@@ -118,6 +117,9 @@ TEST_CASE("a measurement.yaml that cannot be used is refused", "[cli]") {
     INFO(bad.content);
     check_refused(scratch, fit, bad.words);
   }
+  scratch.file("sample/measurement.yaml", "name: a\nquantity: brdf\nwavelength_nm: 99999\nmaterial: Au\n");
+  check_refused(scratch, {"fit", scratch.path("sample"), "--model", "torrance-sparrow", "--out", scratch.path("out")},
+                "nm");
 }
 
 TEST_CASE("directions that cannot be evaluated are refused, also after good rows", "[cli]") {
@@ -162,7 +164,9 @@ TEST_CASE("a scene that cannot be read is refused", "[cli]") {
       {"empty.yaml", "", "empty.yaml"},
       {"text.yaml", "a scene in prose\n", "text.yaml"},
       {"syntax.yaml", "camera: [1, 2\n", "syntax.yaml"},
-      {"unknown-key.yaml", "camcorder: {fov_deg: 30}\n", "camcorder"},
+      {"unknown-key.yaml", content_of(GONIO_SOURCE_DIR "/scenes/sphere-on-ground.yaml") + "\ncamcorder: 1\n",
+       "camcorder"},
+      {"cut.yaml", content_of(GONIO_SOURCE_DIR "/scenes/sphere-on-ground.yaml").substr(0, 400), "cut.yaml"},
       {"binary.yaml", kBinary, "binary.yaml"},
   };
   for (const BadTable& bad : bad_scenes) {
