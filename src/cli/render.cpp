@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -24,11 +25,12 @@ struct Arguments {
   double exposure = 1, at_nm = 0;
 };
 
-/// A bar on a terminal, a line every tenth elsewhere; nothing in the first moments of a short run.
+/// A bar on a terminal, a line every tenth elsewhere; nothing in the first second.
 class Progress {
  public:
   void show(double done) {
     const std::lock_guard lock(mutex_);
+    if (std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
     const int step = terminal_ ? static_cast<int>(done * 100) : static_cast<int>(done * 10) * 10;
     if (step <= shown_) return;
     shown_ = step;
@@ -41,6 +43,7 @@ class Progress {
 
  private:
   std::mutex mutex_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const bool terminal_ = isatty(2) != 0;
   int shown_ = 0;
 };

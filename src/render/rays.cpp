@@ -73,7 +73,7 @@ std::optional<double> distance_to_sphere(const Vector& origin, const Vector& dir
 }
 
 struct RayScene::Embree {
-  RTCDevice device = rtcNewDevice("threads=1");
+  RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = nullptr;
 
   explicit Embree(std::vector<Shape>& shapes) {

@@ -1,5 +1,6 @@
 #include "render/render.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -123,7 +124,9 @@ void render_rows(const Scene& scene, const RenderSettings& settings, RenderResul
   const auto width = static_cast<std::size_t>(scene.camera.width),
              height = static_cast<std::size_t>(scene.camera.height);
   std::atomic<std::size_t> done{0};
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  const auto allowed =
+      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, allowed) : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t row) {
       for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)

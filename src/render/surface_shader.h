@@ -7,6 +7,7 @@
 #include "brdf/sampling.h"
 #include "render/random.h"
 #include "render/spectral_lanes.h"
+#include "render/visible_normals.h"
 
 namespace gonio {
 
@@ -89,7 +90,7 @@ class SurfaceShader {
     if (choice < shares.delta + (1 - shares.delta) * shares.cosine) {
       i = sample_cosine(u1, u2).direction;
     } else {
-      const auto drawn = sample_half_vector(alpha_, o, u1, u2);
+      const auto drawn = sample_visible_normal(alpha_, o, random.uniform(), u1, u2);
       if (!drawn) return {};
       i = drawn->direction;
     }
@@ -115,7 +116,7 @@ class SurfaceShader {
   }
 
   double density(const LocalDirection& i, const LocalDirection& o, double cosine_share) const {
-    const double lobe = cosine_share < 1 ? half_vector_pdf(alpha_, i, o) : 0;
+    const double lobe = cosine_share < 1 ? visible_normal_pdf(alpha_, i, o) : 0;
     return cosine_share * cosine_pdf(i) + (1 - cosine_share) * lobe;
   }
 

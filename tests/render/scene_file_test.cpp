@@ -1,0 +1,123 @@
+// The scene file: every bundled scene is read; every kind of mistake is refused with its line.
+#include "scene/scene_file.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "catch.h"
+
+using namespace gonio;
+
+namespace {
+
+const std::string kGood = R"(# a scene
+camera: {position: [0, -6, 2], look_at: [0, 0, 1], fov_deg: 30, width: 64, height: 48}
+materials:
+  gold:
+    model: torrance-sparrow
+    material: Au
+    set: {alpha: 0.2, kd: 0.1}
+    shadowing: v-cavity
+  paper: {model: lambert, set: {kd: 0.4}}
+spheres:
+  - {center: [0, 0, 1], radius: 1, material: gold}
+ground: {radius: 20, material: paper}
+lights:
+  - {center: [-4, -3, 6.5], radius: 2, radiance: 9, illuminant: D65}
+environment: {radiance: 0.35}
+wavelengths_nm: {from: 400, to: 700, step: 10}
+)";
+
+std::string replaced(const std::string& from, const std::string& to) {
+  std::string text = kGood;
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_scene(text, "s.yaml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a scene file says what is rendered", "[scene]") {
+  const Scene scene = parse_scene(kGood, "s.yaml");
+  CHECK(scene.camera.width == 64);
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.materials[0].material == "Au_Johnson");
+  CHECK(scene.materials[0].model.shadowing == Shadowing::v_cavity);
+  CHECK(scene.materials[0].values[0] == Approx(0.2 / std::sqrt(2)));
+  CHECK(scene.materials[0].values[1] == 0.1);
+  CHECK(scene.materials[0].values[2] == 1);
+  CHECK(scene.spheres.at(0).material == 0);
+  CHECK(scene.ground->material == 1);
+  CHECK(scene.ground->height == 0);
+  CHECK(scene.lights.at(0).emission.illuminant == "D65");
+  CHECK(scene.wavelengths_nm.size() == 31);
+  CHECK(parse_scene(replaced("{from: 400, to: 700, step: 10}", "532"), "s").wavelengths_nm == std::vector<double>{532});
+  CHECK(parse_scene(replaced("{from: 400, to: 700, step: 10}", "[400, 532.5]"), "s").wavelengths_nm ==
+        std::vector<double>{400, 532.5});
+}
+
+TEST_CASE("a mistake in a scene is refused with its line", "[scene]") {
+  struct Mistake {
+    const char *from, *to, *line, *about;
+  };
+  const Mistake mistakes[] = {
+      {"radius: 1,", "radius: 1, shine: 2,", "s.yaml:11:", "unknown key `shine`"},
+      {"environment:", "surroundings:", "s.yaml:15:", "unknown key `surroundings`"},
+      {"fov_deg: 30", "fov_deg: 0", "s.yaml:2:", "fov_deg"},
+      {"fov_deg: 30", "fov_deg: nan", "s.yaml:2:", "fov_deg"},
+      {"width: 64", "width: 64.5", "s.yaml:2:", "whole number"},
+      {"width: 64", "width: 64, width: 65", "s.yaml:2:", "twice"},
+      {"[0, -6, 2]", "[0, -6]", "s.yaml:2:", "point"},
+      {"[0, -6, 2]", "[0, 0, 1.5]", "s.yaml:", "inside a sphere"},
+      {"radius: 1,", "radius: -1,", "s.yaml:11:", "radius"},
+      {"material: gold}", "material: brass}", "s.yaml:11:", "brass"},
+      {"material: Au", "material: Unobtainium", "s.yaml:6:", "Unobtainium"},
+      {"torrance-sparrow", "torrance", "s.yaml:5:", "torrance"},
+      {"v-cavity", "w-cavity", "s.yaml:8:", "w-cavity"},
+      {"{alpha: 0.2, kd: 0.1}", "{alpha: 0.2, m: 0.1}", "s.yaml:7:", "m and alpha"},
+      {"{alpha: 0.2, kd: 0.1}", "{kd: 0.1}", "s.yaml:7:", "`m`"},
+      {"{alpha: 0.2, kd: 0.1}", "{m: 0.2, shine: 1}", "s.yaml:7:", "shine"},
+      {"{alpha: 0.2, kd: 0.1}", "{m: 100}", "s.yaml:7:", "m of"},
+      {"{kd: 0.4}", "{kd: grey}", "s.yaml:9:", "grey"},
+      {"illuminant: D65", "illuminant: Au_Johnson", "s.yaml:14:", "illuminant"},
+      {"radiance: 9", "radiance: -9", "s.yaml:14:", "radiance"},
+      {"[-4, -3, 6.5]", "[0, 0, 3]", "s.yaml:", "overlaps"},
+      {"step: 10", "step: 1", "s.yaml:16:", "wavelengths"},
+      {"from: 400, to: 700", "from: 700, to: 400", "s.yaml:16:", "to"},
+      {"{from: 400, to: 700, step: 10}", "20000", "s.yaml:", "nm"},
+      {"{from: 400, to: 700, step: 10}", "[500, 400]", "s.yaml:16:", "400"},
+      {"camera:", "- camera:", "s.yaml:", "mapping"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const std::string message = refusal(replaced(mistake.from, mistake.to));
+    INFO(mistake.to << " -> " << message);
+    CHECK(message.starts_with(mistake.line));
+    CHECK(message.find(mistake.about) != std::string::npos);
+    CHECK(message.find("expected") != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+  }
+  for (const char* text : {"", "42", "[1, 2]", "\x01\x02\xff", "camera: {", "camera: {position: [0,0,0]}"})
+    CHECK(refusal(text) != "accepted");
+}
+
+TEST_CASE("every bundled scene can be read and says what it validates", "[scene]") {
+  int scenes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(GONIO_SOURCE_DIR "/scenes")) {
+    if (file.path().extension() != ".yaml") continue;
+    INFO(file.path());
+    CHECK_NOTHROW(read_scene(file.path()));
+    CHECK(read_file(file.path()).starts_with("# Validates: "));
+    ++scenes;
+  }
+  CHECK(scenes >= 5);
+}
