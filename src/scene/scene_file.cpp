@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "materials/database.h"
+#include "scene/fitted.h"
 #include "scene/yaml_map.h"
 
 namespace gonio {
@@ -59,7 +60,20 @@ std::vector<double> read_values(YamlMap map, const ModelInfo& info) {
   return values;
 }
 
-SceneMaterial read_material(const std::string& name, YamlMap map) {
+/// {fit: path}, from the scene file's folder.
+SceneMaterial read_fitted(const std::string& name, YamlMap map, const std::vector<double>& wavelengths_nm) {
+  const std::filesystem::path path = std::filesystem::path(map.file()).parent_path() / map.text("fit");
+  map.finish();
+  return at_line(map, "fit", [&] {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(path, none))
+      throw input_error("{}: is no file; expected a fit.json", path.string());
+    return scene_material(name, read_fit(path), wavelengths_nm);
+  });
+}
+
+SceneMaterial read_material(const std::string& name, YamlMap map, const std::vector<double>& wavelengths_nm) {
+  if (map.has("fit")) return read_fitted(name, map, wavelengths_nm);
   SceneMaterial material;
   material.name = name;
   const std::string model_name = map.text("model"), shadowing = map.text_or("shadowing", ""),
@@ -167,7 +181,8 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   scene.camera = read_camera(map.map("camera"));
   scene.wavelengths_nm = map.has("wavelengths_nm") ? read_wavelengths(map) : visible_wavelengths();
   YamlMap materials = map.map("materials");
-  for (const std::string& name : materials.keys()) scene.materials.push_back(read_material(name, materials.map(name)));
+  for (const std::string& name : materials.keys())
+    scene.materials.push_back(read_material(name, materials.map(name), scene.wavelengths_nm));
   read_objects(map, scene);
   if (map.has("environment")) {
     YamlMap environment = map.map("environment");

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "catch.h"
+#include "scene/fitted.h"
 
 using namespace gonio;
 
@@ -96,6 +97,7 @@ TEST_CASE("a mistake in a scene is refused with its line", "[scene]") {
       {"from: 400, to: 700", "from: 700, to: 400", "s.yaml:16:", "to"},
       {"{from: 400, to: 700, step: 10}", "20000", "s.yaml:", "nm"},
       {"{from: 400, to: 700, step: 10}", "[500, 400]", "s.yaml:16:", "400"},
+      {"{model: lambert, set: {kd: 0.4}}", "{fit: nowhere.json}", "s.yaml:9:", "nowhere.json"},
       {"camera:", "- camera:", "s.yaml:", "mapping"},
   };
   for (const Mistake& mistake : mistakes) {
@@ -120,4 +122,19 @@ TEST_CASE("every bundled scene can be read and says what it validates", "[scene]
     ++scenes;
   }
   CHECK(scenes >= 5);
+}
+
+TEST_CASE("a fitted material renders where its fit speaks, and nowhere else", "[scene]") {
+  FittedMaterial fitted;
+  fitted.model = {ModelId::torrance_sparrow};
+  fitted.values = {0.2, 0.1, 0.9};
+  fitted.wavelength_nm = {532};
+  CHECK(scene_material("a", fitted, {532}).material == "perfect");
+  CHECK_THROWS_AS(scene_material("a", fitted, {532, 550}), InputError);
+  fitted.material = "Al_Rakic";
+  CHECK(scene_material("a", fitted, {450, 650}).material == "Al_Rakic");
+  fitted.material.reset();
+  fitted.n = 1.5;
+  fitted.wavelength_nm.clear();
+  CHECK(scene_material("a", fitted, {450}).fixed_interface->n == 1.5);
 }
