@@ -1,5 +1,7 @@
 #pragma once
 #include "cli/arguments.h"
+#include "energy/limits.h"
+#include "fit/fitted_material.h"
 
 namespace gonio::cli {
 
@@ -7,14 +9,17 @@ namespace gonio::cli {
 struct Subject {
   ChosenModel model;
   Surface surface;
-  std::vector<double> fitted_nm;    ///< wavelengths of the fit; empty on the command line, or when the fit states none
-  bool from_fit = false, needs_wavelength = false, fixed_n = false;
+  std::optional<FittedMaterial> fitted;
 
-  /// The wavelength to evaluate at: the one asked for, where the subject has values there; InputError when one is needed
+  /// The wavelength to evaluate at: the one asked for, where the subject has values there. InputError when one is needed
   /// and none is given, or when a fit says nothing about it. 0 where no wavelength matters.
   double wavelength_for(std::optional<double> asked_nm) const;
 };
 
+/// InputError for what no model or fit is; a fit takes neither --set nor --material.
 Subject make_subject(const ModelArguments& model, const SurfaceArguments& surface);
+
+/// The subject's surface at one wavelength, or over the visible range (360-830 nm) as far as its data reach, 5 nm apart.
+SurfaceSamples sample_surface(const Subject& subject, std::optional<double> at_nm);
 
 }  // namespace gonio::cli

@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
-#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -34,7 +33,8 @@ ReflectanceTable make_reflectance_table(const ModelSpec& spec, double tolerance)
   const SpectralSurface perfect{{perfect_interface<double>()}, {0.55}};
   tbb::parallel_for(0, kAngles * kSlopes, [&](int cell) {
     const double m = table.slope_rms[static_cast<std::size_t>(cell / kAngles)];
-    const std::array<double, 3> values{m, 0, 1};
+    std::vector<double> values;
+    for (const ParameterInfo& p : info.parameters) values.push_back(p.fallback.value_or(m));  // kd = 0, ks = 1
     const Brdf<double> brdf = make_brdf<double>(spec, values);
     const Estimate e =
         directional_reflectance(brdf.lobe, table.theta_deg[static_cast<std::size_t>(cell % kAngles)], perfect, tolerance)[0];
