@@ -38,16 +38,18 @@ std::string content_of(const fs::path& path) {
   return std::move(content).str();
 }
 
-Outcome run_gonio(const std::vector<std::string>& arguments, std::string_view input) {
+Outcome run_gonio(const std::vector<std::string>& arguments, std::string_view input, std::string_view out_file) {
   const Scratch streams;
-  const fs::path in = streams.file("in", input), out = streams.path("out"), err = streams.path("err");
+  const fs::path in = streams.file("in", input),
+                 out = out_file.empty() ? fs::path(streams.path("out")) : fs::path(out_file), err = streams.path("err");
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) become_gonio(arguments, in, out, err);
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) throw std::runtime_error(GONIO_COMMAND " cannot be run");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content_of(out), content_of(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          out_file.empty() ? content_of(out) : std::string(), content_of(err)};
 }
 
 Scratch::Scratch() {

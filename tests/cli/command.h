@@ -12,8 +12,10 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs the built `gonio` with these arguments and this standard input.
-Outcome run_gonio(const std::vector<std::string>& arguments, std::string_view input = {});
+/// Runs the built `gonio` with these arguments and this standard input; its output goes to `out_file` where one is
+/// named.
+Outcome run_gonio(const std::vector<std::string>& arguments, std::string_view input = {},
+                  std::string_view out_file = {});
 
 /// A file as bytes; empty when there is none.
 std::string content_of(const std::filesystem::path& path);

@@ -1,6 +1,7 @@
 // Files that cannot be used: each is refused in one line, and nothing is written.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
@@ -193,5 +194,16 @@ TEST_CASE("an output that cannot be written is refused before or after the work,
     into_absent.push_back(scratch.path("absent/image.exr"));
     check_refused(scratch, into_file, "plain.txt");
     check_refused(scratch, into_absent, "absent");
+  }
+}
+
+TEST_CASE("a standard output that cannot be written is no success", "[cli]") {
+  const std::vector<Arguments> all = {
+      {"models"}, {"materials", "list", "--json"}, {"fresnel", "--n", "1.5"}, {"eval", "lambert", "--input", "-"}};
+  for (const Arguments& arguments : all) {
+    const Outcome full = run_gonio(arguments, directions("0,10,0\n"), "/dev/full");
+    INFO(arguments.front() << ": " << full.err);
+    CHECK(full.status == 2);
+    CHECK(std::count(full.err.begin(), full.err.end(), '\n') == 1);
   }
 }
