@@ -26,6 +26,7 @@ namespace {
   std::vector<char*> argv{const_cast<char*>("gonio")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  setenv("GONIO_HOME", GONIO_SOURCE_DIR, 0);  // for a build folder outside the source tree
   execv(GONIO_COMMAND, argv.data());
   _exit(127);
 }
