@@ -54,11 +54,11 @@ std::string figure(const std::filesystem::path& file, std::string_view caption) 
 
 std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
   std::string out = "<table><tr>";
-  for (const auto& cell : header) out += "<th>" + cell + "</th>";
+  for (const auto& cell : header) out += fmt::format("<th>{}</th>", cell);
   out += "</tr>\n";
   for (const auto& row : rows) {
     out += "<tr>";
-    for (const auto& cell : row) out += "<td>" + cell + "</td>";
+    for (const auto& cell : row) out += fmt::format("<td>{}</td>", cell);
     out += "</tr>\n";
   }
   return out + "</table>\n";

@@ -54,23 +54,37 @@ std::vector<Trial> try_models(const Measurement& measurement, const ValidationSe
 /// The error a model is judged by: where it was not fitted, else (one or two incidences) where it was.
 double judged_error(const FitResult& fit) { return fit.held_out ? fit.held_out->rms_log10 : fit.all.rms_log10; }
 
+/// May it be taken? Not when it did not converge, nor when its parameters scale with a wavelength that is only assumed.
+bool eligible(const Trial& trial) {
+  return trial.fit && trial.fit->converged &&
+         !(trial.fit->model.info().needs_wavelength && trial.fit->wavelength_nm.empty());
+}
+
+/// The simplest of the models whose error is within kNoBetter of the least; of equally simple ones the most accurate.
 void choose(MaterialReport& report) {
   double least = HUGE_VAL;
   for (const Trial& trial : report.trials)
-    if (trial.fit && trial.fit->converged) least = std::min(least, judged_error(*trial.fit));
-  bool found = false;
+    if (eligible(trial)) least = std::min(least, judged_error(*trial.fit));
+  const Trial* taken = nullptr;
   for (std::size_t i = 0; i < report.trials.size(); ++i) {
     const Trial& trial = report.trials[i];
-    if (!trial.fit || !trial.fit->converged || judged_error(*trial.fit) > kNoBetter * least) continue;
-    if (!found || trial.free_parameters < report.trials[report.chosen].free_parameters) report.chosen = i;
-    found = true;
+    if (!eligible(trial) || judged_error(*trial.fit) > kNoBetter * least) continue;
+    if (!taken || trial.free_parameters < taken->free_parameters ||
+        (trial.free_parameters == taken->free_parameters && judged_error(*trial.fit) < judged_error(*taken->fit))) {
+      taken = &trial;
+      report.chosen = i;
+    }
   }
-  if (!found) throw input_error("{}: no model could be fitted; expected a scan that one of them can describe", report.id);
-  report.choice = fmt::format(
-      "{} is taken: {} within 5 % of the least error {}, and none with fewer parameters is.", report.trials[report.chosen].name, "it is",
-      report.fit().held_out ? fmt::format("at the incidence left out of the fit ({:g} deg, rms of log10 = {:.4f})",
-                                          report.fit().held_out->theta_i_deg, judged_error(report.fit()))
-                            : fmt::format("of the fit (rms of log10 = {:.4f})", judged_error(report.fit())));
+  if (!taken) throw input_error("{}: no model could be fitted; expected a scan that one of them can describe", report.id);
+  const std::string where = taken->fit->held_out
+                                ? fmt::format("at the incidence left out of the fit, {:.4g}°", taken->fit->held_out->theta_i_deg)
+                                : std::string("of the fit");
+  report.choice = fmt::format("{} is taken: the simplest model within 5 % of the least error {} (rms of log10 = {:.4f}).", taken->name,
+                              where, judged_error(*taken->fit));
+  for (const Trial& trial : report.trials)
+    if (trial.fit && trial.fit->converged && !eligible(trial))
+      report.choice += fmt::format(" {} is shown but not taken: its parameters scale with the wavelength, which the scan does not state.",
+                                   trial.name);
 }
 
 /// Where the fitted material is rendered and checked: over the visible range when its n, k come from the database, else at
@@ -104,14 +118,14 @@ std::string table_csv(const Limits& limits) {
 }
 
 std::string energy_svg(const MaterialReport& report) {
-  std::string script = "set xlabel 'angle of incidence (deg)'\nset ylabel 'reflected share of the energy'\nset key left bottom\n"
+  std::string script = "set xlabel 'angle of incidence (deg)'\nset ylabel 'reflected share of the energy'\nset key below\n"
                        "set xrange [0:90]\nset yrange [0:*]\nset grid\n$total << E\n";
   for (const LimitRow& row : report.limits.rows) script += fmt::format("{} {} {}\n", row.theta_deg, row.total, row.e.value + row.coherent);
   script += "E\nplot 1 lw 2 dt 2 lc rgb '#b3261e' title 'limit (43)', $total using 1:2 with linespoints lw 2 pt 7 ps 0.4 lc rgb "
-            "'#1f4e79' title 'kd {/Symbol r}_d + ks E, worst wavelength'";
+            "'#1f4e79' title 'kd ρ_d + ks E, worst wavelength'";
   if (report.fit().model.id != ModelId::lambert)
     script += ", $total using 1:3 with lines lw 2 dt 3 lc rgb '#e08a00' title 'E of the lobe alone (ks = 1)'";
-  return gnuplot_svg(script + "\n", 640, 420);
+  return gnuplot_svg(script + "\n", 680, 440);
 }
 
 SceneMaterial scene_material(const FittedMaterial& fitted, double scale) {

@@ -75,6 +75,9 @@ std::string verdict(const MaterialReport& report) {
 std::string energy_verdict(const MaterialReport& report) {
   const Limits& limits = report.limits;
   const std::string where = fmt::format("at {:g}° incidence, {:g} nm", limits.worst_theta_deg, limits.worst_wavelength_nm);
+  const std::string range = limits.range_lo_nm == limits.range_hi_nm
+                                ? fmt::format("{:g} nm", limits.range_lo_nm)
+                                : fmt::format("{:g}–{:g} nm", limits.range_lo_nm, limits.range_hi_nm);
   std::string out;
   if (limits.worst_total > 1 + limits.worst_error)
     out = fmt::format("<div class=\"bad\">The fitted material breaks energy conservation (43): it reflects {:.6f} {}, {:.4g} more than it receives. "
@@ -88,8 +91,8 @@ std::string energy_verdict(const MaterialReport& report) {
     out += fmt::format("<div class=\"bad\">This lobe grows without bound at grazing: it is not conserving beyond {:g}°.</div>\n", limits.theta_max_deg);
   if (std::isfinite(limits.ks_max)) out += fmt::format("<p>ks<sub>max</sub> = {:.6f} (kd = 0); ", limits.ks_max);
   else out += "<p>No lobe, so no ks<sub>max</sub>; ";
-  out += fmt::format("kd<sub>max</sub> = {:.6f} at the fitted ks; range examined {:g}–{:g} nm, {}.</p>\n", limits.kd_max, limits.range_lo_nm,
-                     limits.range_hi_nm, limits.bounded ? "0 to 89.99°" : fmt::format("0 to {:g}°", limits.theta_max_deg));
+  out += fmt::format("kd<sub>max</sub> = {:.6f} at the fitted ks; range examined {}, {}.</p>\n", limits.kd_max, range,
+                     limits.bounded ? "0 to 89.99°" : fmt::format("0 to {:g}°", limits.theta_max_deg));
   return out;
 }
 
