@@ -20,7 +20,7 @@ auto at_line(const YamlMap& map, std::string_view key, Step step) {
   try {
     return step();
   } catch (const InputError& error) {
-    throw input_error("{}:{}: {}", map.file(), map.line(key), error.what());
+    throw input_error("{}:{}: {}", map.file(), map.line(key), shown(error.what(), 400));
   }
 }
 
@@ -97,8 +97,8 @@ std::size_t material_index(YamlMap& map, const Scene& scene) {
   for (std::size_t m = 0; m < scene.materials.size(); ++m)
     if (scene.materials[m].name == name) return m;
   std::vector<std::string> known;
-  for (const SceneMaterial& material : scene.materials) known.push_back(material.name);
-  throw map.error(map.at("material"), fmt::format("no material is called `{}`", name),
+  for (const SceneMaterial& material : scene.materials) known.push_back(shown(material.name));
+  throw map.error(map.at("material"), fmt::format("no material is called `{}`", shown(name)),
                   fmt::format("one of {}", fmt::join(known, ", ")));
 }
 

@@ -9,15 +9,14 @@ namespace {
 
 int line_of(const YAML::Node& node) { return std::max(0, node.Mark().line) + 1; }
 
-/// At most 60 bytes, on one line.
-std::string shown(std::string text) {
-  if (text.size() > 60) text = text.substr(0, 60) + "…";
+}  // namespace
+
+std::string shown(std::string text, std::size_t longest) {
+  if (text.size() > longest) text = text.substr(0, longest) + "…";
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 32) c = ' ';
   return text;
 }
-
-}  // namespace
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) try {
   return YAML::Load(text);
@@ -27,7 +26,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) try {
 }
 
 YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string what)
-    : node_(node), file_(std::move(file)), what_(std::move(what)) {
+    : node_(node), file_(std::move(file)), what_(shown(std::move(what))) {
   if (!node_.IsMap()) throw error(node_, fmt::format("{} is no mapping", what_), "`key: value` pairs");
   for (const auto& pair : node_) {
     if (!pair.first.IsScalar()) throw error(pair.first, fmt::format("a key of {} is no plain text", what_), "a name");

@@ -14,6 +14,9 @@ namespace gonio {
 /// Text of a file as YAML; InputError `file:line: …` when it is none.
 YAML::Node parse_yaml(const std::string& text, const std::string& file);
 
+/// Text of a file as an error shows it: on one line, cut when longer than so many bytes.
+std::string shown(std::string text, std::size_t longest = 60);
+
 /// A mapping of a YAML file, read strictly: every value is asked for by name, with its range; finish() refuses what
 /// nobody asked for. Every error is `file:line: what is wrong; what was expected`.
 class YamlMap {
