@@ -13,7 +13,7 @@ using html::escape;
 std::string stated(const std::string& text) { return text.empty() ? "not stated" : escape(text); }
 
 std::string parameter_text(const FittedParameter& p) {
-  const std::string unit = p.unit == "1" ? "" : p.unit == "um" ? " µm" : " " + escape(p.unit);
+  const std::string unit = p.unit == "1" ? "" : p.unit == "um" ? " µm" : fmt::format(" {}", p.unit);
   if (p.held) return fmt::format("{} = {:.5g}{} (held)", p.name, p.value, unit);
   if (!p.standard_error)
     return fmt::format("{} = {:.5g}{} ({})", p.name, p.value, unit, p.at_bound ? "at its bound" : "not identifiable");

@@ -1,5 +1,7 @@
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -48,6 +50,10 @@ int run(int argc, char** argv) {
       limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(common.threads));
   });
+  const auto commands = app.get_subcommands([](CLI::App*) { return true; });
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::none_of(commands.begin(), commands.end(), [&](const CLI::App* known) { return known->check_name(argv[1]); }))
+    throw input_error("gonio {}: unknown subcommand; expected one of those in `gonio --help`", argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -64,7 +70,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return gonio::cli::run(argc, argv);
+    const int exit_code = gonio::cli::run(argc, argv);
+    // What could not be written (a full disk, a closed pipe) is no success.
+    if (!std::cout.flush() || std::fflush(stdout) != 0)
+      throw gonio::input_error("gonio: standard output cannot be written; expected a writable one");
+    return exit_code;
   } catch (const gonio::InputError& error) {
     gonio::cli::complain(error.what());
   } catch (const std::bad_alloc&) {

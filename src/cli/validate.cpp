@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 struct ValidateArguments {
   std::vector<std::string> measurements;
-  std::string out = "out/validate";
+  std::string out = "out";
   int spp = 192;
 };
 
