@@ -25,7 +25,7 @@ std::vector<Solution> solve_all(const FitProblem& problem, const FitRequest& req
   int done = 0;
   tbb::parallel_for(0, request.starts, [&](int start) {
     solutions[static_cast<std::size_t>(start)] =
-        solve(problem, improve_start(problem, start_point(problem, start, request.seed)));
+        solve(problem, improve_start(problem, start_point(problem, start, request.seed)), kSearch);
     const std::lock_guard lock(mutex);
     ++done;
     if (request.progress) request.progress(done, request.starts);
@@ -39,6 +39,11 @@ const Solution& best_of(const std::vector<Solution>& solutions) {
     return std::isfinite(a.cost) && (a.cost < b.cost || !std::isfinite(b.cost));
   };
   return *std::min_element(solutions.begin(), solutions.end(), better);
+}
+
+Solution polished(const FitProblem& problem, const Solution& found) {
+  Solution better = solve(problem, found.x, kPolish);
+  return better.converged && better.cost <= found.cost ? better : found;
 }
 
 /// Minima are told apart by their cost: along an undetermined direction one minimum has many parameters.
@@ -128,6 +133,7 @@ void store_points(const Measurement& scan, const Prepared& ready, const FitProbl
     result.points.push_back({p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.wavelength_nm, p.f_per_sr, fitted[i],
                              p.incidence, ready.used[i], ready.held_out[i]});
   }
+  result.incidences_binned = scan.incidences_binned;
   for (const double theta_i_deg : scan.incidences_deg) {
     result.by_incidence.emplace_back();
     result.by_incidence.back().theta_i_deg = theta_i_deg;
@@ -162,7 +168,7 @@ FitResult fit(const Measurement& measurement, const FitRequest& request) {
   FitResult result;
   Prepared ready = prepare(measurement, request, result);
   const std::vector<Solution> solutions = solve_all(ready.problem, request);
-  Solution best = best_of(solutions);
+  Solution best = polished(ready.problem, best_of(solutions));
   result.starts = request.starts;
   result.starts_converged =
       static_cast<int>(std::count_if(solutions.begin(), solutions.end(), [](auto& s) { return s.converged; }));

@@ -72,6 +72,7 @@ struct FitResult {
 
   Residuals all;
   std::vector<IncidenceResiduals> by_incidence;
+  bool incidences_binned = false;  ///< theta_i_deg are the middles of 10° bins
   std::optional<IncidenceResiduals> held_out;
   double neighbour_correlation = 0;  ///< of residuals next to each other in the scan; 0 for independent errors
   std::vector<std::string> correlation_names;

@@ -39,6 +39,7 @@ Json residuals(const FitResult& result) {
   json["by_scan"] = Json::array();
   for (const IncidenceResiduals& r : result.by_incidence) json["by_scan"].push_back(incidence(r));
   json["held_out"] = result.held_out ? incidence(*result.held_out) : Json(nullptr);
+  json["incidences_binned"] = result.incidences_binned;
   json["neighbour_correlation"] = result.neighbour_correlation;
   return json;
 }

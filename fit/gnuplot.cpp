@@ -36,9 +36,13 @@ class Script {
 
 /// For the shell: a path of any characters as one word.
 std::string quoted(const std::string& path) {
-  std::string word = "'";
-  for (const char c : path) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
+  std::string word(1, '\'');
+  for (const char c : path) {
+    if (c == '\'') word += "'\\'";  // closes the quotes, writes one, and the line below opens them again
+    word += c;
+  }
+  word += '\'';
+  return word;
 }
 
 }  // namespace

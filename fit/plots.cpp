@@ -53,7 +53,11 @@ Curve curve_of(const FitResult& result, std::size_t incidence) {
   return curve;
 }
 
-std::string angle_name(double degrees) { return fmt::format("{:g}°", degrees); }
+std::string angle_name(const FitResult& result, std::size_t incidence) {
+  const double middle = result.by_incidence[incidence].theta_i_deg;
+  return result.incidences_binned ? fmt::format("{:g}° to {:g}°", middle - 5, middle + 5)
+                                  : fmt::format("{:g}°", middle);
+}
 
 std::string heading(const FitResult& result) {
   const std::string sample = gnuplot_text(result.name.empty() ? result.measurement_id : result.name);
@@ -61,16 +65,17 @@ std::string heading(const FitResult& result) {
 }
 
 std::string unit_of(const FitResult& result) {
-  return result.quantity == "relative" ? "f_r (relative unit)" : "BRDF f_r (sr^{-1})";
+  return result.quantity == "relative" ? "BRDF (relative unit)" : "BRDF (sr^{-1})";
 }
 
 constexpr const char* kFrame =
     "set border lw 1 lc rgb '#404040'\nset tics out nomirror\nset grid lw 0.6 lc rgb '#DDDDDD'\n"
-    "set key outside right top samplen 1.6 spacing 1.15 width -1\n";
+    "set key outside right top Left reverse samplen 1.4 spacing 1.15\n";
 
 }  // namespace
 
 bool has_in_plane_curves(const FitResult& result) {
+  if (result.incidences_binned) return false;
   const auto points = std::count_if(result.points.begin(), result.points.end(),
                                     [](const FittedPoint& p) { return in_plane_angle(p).has_value(); });
   return points >= kPointsOfACurve * static_cast<std::ptrdiff_t>(result.by_incidence.size());
@@ -96,8 +101,8 @@ std::string in_plane_svg(const FitResult& result, bool logarithmic) {
     }
     data += "EOD\n";
     points += fmt::format("{}$m{} w p pt {} ps {} lc rgb '{}' t 'measured {}{}'", points.empty() ? "plot " : ", \\\n  ",
-                          i, mark(i, held), curve.measured.size() > 100 ? 0.35 : 0.6, colour(i),
-                          angle_name(result.by_incidence[i].theta_i_deg), held ? " (left out)" : "");
+                          i, mark(i, held), curve.measured.size() > 100 ? 0.35 : 0.6, colour(i), angle_name(result, i),
+                          held ? " (left out)" : "");
     lines += fmt::format(", \\\n  $f{} w l lw 1.8 {} lc rgb '{}' notitle", i, held ? "dt (8,4)" : "dt 1", colour(i));
   }
   const std::string range = logarithmic ? fmt::format("set logscale y\nset format y '10^{{%T}}'\nset yrange [{}:{}]\n",
@@ -105,9 +110,10 @@ std::string in_plane_svg(const FitResult& result, bool logarithmic) {
                                         : fmt::format("set yrange [0:{}]\n", top * 1.05);
   return gnuplot_svg(
       data + heading(result) + kFrame + range +
-          fmt::format("set xlabel 'zenith angle of reflection {{/Symbol q}}_o in the plane of incidence (degrees; "
-                      "positive: mirror side)'\nset ylabel '{}'\nset xrange [-90:90]\nset xtics 15\n",
-                      unit_of(result)) +
+          fmt::format(
+              "set xlabel 'angle of reflection θ_o in the plane of incidence (degrees; positive: mirror side)'\n"
+              "set ylabel '{}'\nset xrange [-90:90]\nset xtics 15\n",
+              unit_of(result)) +
           points + lines + ", \\\n  NaN w l lw 1.8 lc rgb '#404040' t 'fitted'" +
           (result.held_out ? ", \\\n  NaN w l lw 1.8 dt (8,4) lc rgb '#404040' t 'predicted (left out)'\n" : "\n"),
       960, 560);
@@ -127,7 +133,7 @@ std::string scatter_svg(const FitResult& result) {
     const bool held = result.by_incidence[i].held_out;
     data += fmt::format("$p{} << EOD\n{}EOD\n", i, rows);
     points += fmt::format(", \\\n  $p{} w p pt {} ps 0.4 lc rgb '{}' t '{}{}'", i, mark(i, held), colour(i),
-                          angle_name(result.by_incidence[i].theta_i_deg), held ? " (left out)" : "");
+                          angle_name(result, i), held ? " (left out)" : "");
   }
   const bool wide = hi > 20 * lo;  // a narrow range is clearer on linear axes
   const std::string range =

@@ -120,15 +120,6 @@ bool FitProblem::residuals(std::span<const double> x, double* residual, double* 
   return finite;
 }
 
-std::vector<double> FitProblem::part(std::span<const double> x, double kd, double ks) const {
-  Candidate<double> model_at = candidate<double>(*this, x);
-  model_at.brdf.kd = kd;
-  model_at.brdf.ks = ks;
-  std::vector<double> f(points.size());
-  std::transform(points.begin(), points.end(), f.begin(), [&](const FitPoint& point) { return model_at.at(point); });
-  return f;
-}
-
 std::vector<double> FitProblem::values_at(std::span<const double> x) const {
   std::vector<double> all = values;
   for (std::size_t i = 0; i < free.size(); ++i)

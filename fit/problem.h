@@ -64,7 +64,8 @@ class FitProblem {
   /// dψ/df.
   double compared_slope(double f_per_sr, const FitPoint& point) const;
 
-  /// f_r of each point with other kd and ks than those of x: (1, 0) gives the diffuse part, (0, 1) the lobe.
+  /// f_r of each point with other kd and ks than those of x: (1, 0) gives the diffuse part, (0, 1) the lobe. Several
+  /// points side by side in SIMD lanes: the search for a start evaluates it hundreds of times.
   std::vector<double> part(std::span<const double> x, double kd, double ks) const;
 
   std::vector<double> values_at(std::span<const double> x) const;   ///< all the model's parameters

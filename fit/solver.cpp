@@ -28,7 +28,7 @@ class AllResiduals final : public ceres::CostFunction {
   int& rejected_;
 };
 
-ceres::Solver::Options options() {
+ceres::Solver::Options options(double tolerance) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.jacobi_scaling = true;
@@ -36,7 +36,7 @@ ceres::Solver::Options options() {
   options.max_num_iterations = 400;
   options.max_trust_region_radius = 1e32;  // ill-conditioned problems need almost undamped last steps
   options.min_trust_region_radius = 1e-10;
-  options.function_tolerance = 1e-16;
+  options.function_tolerance = tolerance;
   options.gradient_tolerance = 1e-20;
   options.parameter_tolerance = 1e-15;
   options.logging_type = ceres::SILENT;
@@ -45,7 +45,7 @@ ceres::Solver::Options options() {
 
 }  // namespace
 
-Solution solve(const FitProblem& problem, std::vector<double> x) {
+Solution solve(const FitProblem& problem, std::vector<double> x, double tolerance) {
   Solution solution;
   const std::size_t count = problem.free.size();
   if (count == 0) {
@@ -63,7 +63,7 @@ Solution solve(const FitProblem& problem, std::vector<double> x) {
     ceres_problem.SetParameterUpperBound(x.data(), static_cast<int>(i), std::log(problem.free[i].hi));
   }
   ceres::Solver::Summary summary;
-  ceres::Solve(options(), &ceres_problem, &summary);
+  ceres::Solve(options(tolerance), &ceres_problem, &summary);
   solution.x = std::move(x);
   solution.cost = summary.final_cost;
   solution.converged = summary.termination_type == ceres::CONVERGENCE;

@@ -15,8 +15,12 @@ struct Solution {
   int rejected = 0;  ///< evaluations that were not finite and therefore refused
 };
 
-/// Levenberg-Marquardt (Ceres, dense QR, bounds) from x until nothing improves in double precision.
-Solution solve(const FitProblem& problem, std::vector<double> x);
+/// Relative decrease of the cost by a step below which a solve ends. Data that the model fits exactly are solved to the
+/// last digit with either; data it does not fit converge linearly, and only the best start is worth kPolish.
+inline constexpr double kSearch = 1e-10, kPolish = 1e-15;
+
+/// Levenberg-Marquardt (Ceres, dense QR, bounds) from x.
+Solution solve(const FitProblem& problem, std::vector<double> x, double tolerance = kPolish);
 
 /// Residuals and Jacobian at x.
 struct Linearised {

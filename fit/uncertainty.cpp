@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kAtBound = 1e-9;      // of the box's logarithmic width
 constexpr double kUndetermined = 1.0;  // standard error of a logarithm from which on a factor e is within the error
+constexpr double kValley = 1e-3;       // share of the largest singular value below which a bound may end a valley
 constexpr double kSameDirection =
     0.02;  // how far from a ratio of small whole numbers a direction may be to be named so
 
@@ -21,122 +22,157 @@ bool on_bound(const FreeParameter& box, double x) {
   return x - lo <= near || hi - x <= near;
 }
 
-/// The exponents by which two parameters p^a q^b combine into what the data do determine, when (du, dv) is the
-/// direction in logarithms that they do not: a·du + b·dv = 0, as small whole numbers or as they are.
-std::string combination(const std::string& p, double du, const std::string& q, double dv) {
-  for (int b = 1; b <= 4; ++b)
-    for (int a = 1; a <= 4; ++a)
-      if (std::abs(std::abs(a * du) - std::abs(b * dv)) < kSameDirection * std::abs(b * dv)) {
-        const auto power = [](const std::string& name, int n) { return n == 1 ? name : fmt::format("{}^{}", name, n); };
-        return fmt::format("{}{}{}", power(p, a), du * dv > 0 ? "/" : "*", power(q, b));
-      }
-  return fmt::format("{}*{}^{:.3g}", p, q, -du / dv);
+/// One free parameter that moves along a direction in logarithms.
+struct Moving {
+  const FreeParameter& box;
+  double x, change;
+};
+
+/// p^a q^b that the data do determine when (p, q) moving by their changes is what they do not: a·dp + b·dq = 0, with
+/// small whole exponents where those fit; and its value.
+std::string combination(const Moving& p, const Moving& q) {
+  double a = 1, b = -p.change / q.change;
+  for (int i = 4; i >= 1; --i)
+    for (int j = 4; j >= 1; --j)
+      if (std::abs(i * std::abs(p.change) - j * std::abs(q.change)) < kSameDirection * j * std::abs(q.change))
+        a = i, b = p.change * q.change > 0 ? -j : j;
+  const auto power = [](const std::string& name, double n) {
+    return n == 1 ? name : fmt::format("{}^{:.3g}", name, n);
+  };
+  return fmt::format("{}{}{} = {:.6g}", power(p.box.name, a), b < 0 ? "/" : "*", power(q.box.name, std::abs(b)),
+                     std::exp(a * p.x + b * q.x));
 }
 
 /// A direction of the free parameters' logarithms that the data do not determine, in words.
-std::string describe(const FitProblem& problem, const std::vector<std::size_t>& moving,
-                     const Eigen::VectorXd& direction, const std::string& why) {
-  if (moving.size() == 1)
-    return fmt::format("{} is not determined by these data ({})", problem.free[moving[0]].name, why);
-  if (moving.size() == 2) {
-    const std::string &p = problem.free[moving[0]].name, &q = problem.free[moving[1]].name;
-    return fmt::format("{} and {} cannot be told apart: only {} is determined by these data ({})", p, q,
-                       combination(p, direction[moving[0]], q, direction[moving[1]]), why);
-  }
+std::string describe(const std::vector<Moving>& moving, const std::string& why) {
+  if (moving.size() == 1) return fmt::format("{} is not determined by these data ({})", moving[0].box.name, why);
+  if (moving.size() == 2)
+    return fmt::format("{} and {} cannot be told apart: only {} is determined by these data ({})", moving[0].box.name,
+                       moving[1].box.name, combination(moving[0], moving[1]), why);
   std::string names;
-  for (const std::size_t i : moving) names += fmt::format("{}{}", names.empty() ? "" : ", ", problem.free[i].name);
+  for (const Moving& m : moving) names += fmt::format("{}{}", names.empty() ? "" : ", ", m.box.name);
   return fmt::format("{} are determined only in combination ({})", names, why);
 }
 
-/// Free parameters that take part in a direction, given by changes of their logarithms.
-std::vector<std::size_t> taking_part(const Eigen::VectorXd& direction) {
-  std::vector<std::size_t> moving;
-  for (Eigen::Index i = 0; i < direction.size(); ++i)
-    if (std::abs(direction[i]) > 0.05 * direction.cwiseAbs().maxCoeff()) moving.push_back(static_cast<std::size_t>(i));
-  return moving;
+bool takes_part(const Eigen::VectorXd& direction, Eigen::Index i) {
+  return std::abs(direction[i]) > 0.05 * direction.cwiseAbs().maxCoeff();
 }
 
-/// Parameters at a bound do not vary: their columns leave the Jacobian.
-struct Varying {
+/// Marks the free parameters that take part in such a direction and says so.
+void refuse(const FitProblem& problem, const Solution& solution, const Eigen::VectorXd& direction,
+            const std::string& why, Uncertainty& result) {
+  std::vector<Moving> moving;
+  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+    if (!takes_part(direction, i)) continue;
+    const auto place = static_cast<std::size_t>(i);
+    result.identifiable[place] = false;
+    moving.push_back({problem.free[place], solution.x[place], direction[i]});
+  }
+  result.warnings.push_back(describe(moving, why));
+}
+
+/// Singular directions of the Jacobian's columns (all, or those of the parameters not at a bound), scaled to length 1.
+struct Spectrum {
   std::vector<Eigen::Index> places;
-  Eigen::MatrixXd jacobian;  ///< columns scaled to length 1
-  Eigen::VectorXd scale;     ///< their lengths
+  Eigen::VectorXd scale, singular;
+  Eigen::MatrixXd v;
+  Eigen::Index parameters = 0;
+
+  Spectrum(const Eigen::MatrixXd& jacobian, const std::vector<bool>& left_out) : parameters(jacobian.cols()) {
+    for (Eigen::Index i = 0; i < jacobian.cols(); ++i)
+      if (!left_out[static_cast<std::size_t>(i)]) places.push_back(i);
+    const auto count = static_cast<Eigen::Index>(places.size());
+    Eigen::MatrixXd scaled(jacobian.rows(), count);
+    scale.resize(count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      scaled.col(j) = jacobian.col(places[static_cast<std::size_t>(j)]);
+      scale[j] = scaled.col(j).norm();
+      if (scale[j] > 0) scaled.col(j) /= scale[j];
+    }
+    if (count == 0) return;
+    const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    singular = svd.singularValues();
+    v = svd.matrixV();
+  }
+
+  double share(Eigen::Index k) const { return singular[0] > 0 ? singular[k] / singular[0] : 0; }
+  bool seen(Eigen::Index k) const { return share(k) > kIdentifiable; }
+  /// Direction k as changes of all the parameters' logarithms.
+  Eigen::VectorXd direction(Eigen::Index k) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(parameters);
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      all[places[j]] = v(column, k) / (scale[column] > 0 ? scale[column] : 1.0);
+    }
+    return all;
+  }
 };
 
-Varying varying(const Eigen::MatrixXd& jacobian, const std::vector<bool>& at_bound) {
-  Varying v;
-  for (Eigen::Index i = 0; i < jacobian.cols(); ++i)
-    if (!at_bound[static_cast<std::size_t>(i)]) v.places.push_back(i);
-  const auto count = static_cast<Eigen::Index>(v.places.size());
-  v.jacobian.resize(jacobian.rows(), count);
-  v.scale.resize(count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    v.scale[j] = jacobian.col(v.places[static_cast<std::size_t>(j)]).norm();
-    v.jacobian.col(j) = jacobian.col(v.places[static_cast<std::size_t>(j)]) / (v.scale[j] > 0 ? v.scale[j] : 1.0);
+/// Directions that the data do not see, and valleys so flat that the solution ran along them into a bound.
+void find_unseen(const FitProblem& problem, const Solution& solution, const Spectrum& all, Uncertainty& result) {
+  for (Eigen::Index k = 0; k < all.singular.size(); ++k) {
+    const Eigen::VectorXd change = all.direction(k);
+    const std::string share = fmt::format("singular value {:.1e} of the largest", all.share(k));
+    if (!all.seen(k)) {
+      refuse(problem, solution, change, share, result);
+      continue;
+    }
+    if (all.share(k) > kValley) continue;
+    for (Eigen::Index i = 0; i < change.size(); ++i)
+      if (result.at_bound[static_cast<std::size_t>(i)] && takes_part(change, i)) {
+        refuse(problem, solution, change,
+               fmt::format("{}, and {} is at its bound", share, problem.free[static_cast<std::size_t>(i)].name),
+               result);
+        break;
+      }
   }
-  return v;
+}
+
+/// Covariance of the logarithms over the directions that are seen; those that are seen but lost in the noise are
+/// refused.
+Eigen::MatrixXd covariance_of(const FitProblem& problem, const Solution& solution, const Spectrum& varying,
+                              double variance, Uncertainty& result) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(varying.parameters, varying.parameters);
+  for (Eigen::Index k = 0; k < varying.singular.size(); ++k) {
+    if (!varying.seen(k)) continue;
+    const Eigen::VectorXd change = varying.direction(k) / varying.singular[k];
+    covariance += variance * change * change.transpose();
+    const double error = std::sqrt(variance) * change.cwiseAbs().maxCoeff();
+    if (error > kUndetermined)
+      refuse(problem, solution, change, fmt::format("standard error of the logarithm {:.2g}", error), result);
+  }
+  return covariance;
 }
 
 }  // namespace
 
 Uncertainty uncertainty(const FitProblem& problem, const Solution& solution) {
   const std::size_t count = problem.free.size();
+  const auto size = static_cast<Eigen::Index>(count);
   Uncertainty result;
   result.standard_error.assign(count, kNotStated);
   result.identifiable.assign(count, true);
-  result.at_bound.assign(count, false);
-  result.correlation = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
-  for (std::size_t i = 0; i < count; ++i) result.at_bound[i] = on_bound(problem.free[i], solution.x[i]);
+  result.correlation = Eigen::MatrixXd::Identity(size, size);
+  for (std::size_t i = 0; i < count; ++i) result.at_bound.push_back(on_bound(problem.free[i], solution.x[i]));
   const Linearised at = linearise(problem, solution.x);
-  const Varying v = varying(at.jacobian, result.at_bound);
-  const auto n = static_cast<Eigen::Index>(v.places.size());
-  const double freedom = static_cast<double>(problem.points.size()) - static_cast<double>(n);
-  result.t95 = freedom > 0 ? boost::math::quantile(boost::math::students_t(freedom), 0.975) : kNotStated;
-  if (n == 0 || !at.finite) return result;
+  if (count == 0 || !at.finite) return result;
 
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(v.jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& singular = svd.singularValues();
-  const auto seen = [&](Eigen::Index k) { return k < singular.size() && singular[k] > kIdentifiable * singular[0]; };
-  result.condition = singular.size() == n && singular[n - 1] > 0 ? singular[0] / singular[n - 1]
-                                                                 : std::numeric_limits<double>::infinity();
-  const double variance = freedom > 0 ? 2 * solution.cost / freedom : kNotStated;
-  // Rows of V/scale turn singular directions into changes of the logarithms.
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  const auto direction = [&](Eigen::Index k) {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-    for (Eigen::Index j = 0; j < n; ++j)
-      all[v.places[static_cast<std::size_t>(j)]] =
-          v.scale[j] > 0 ? svd.matrixV()(j, k) / v.scale[j] : svd.matrixV()(j, k);
-    return all;
-  };
-  for (Eigen::Index k = 0; k < singular.size(); ++k) {
-    const Eigen::VectorXd change = direction(k);
-    if (!seen(k)) {
-      const std::vector<std::size_t> moving = taking_part(change);
-      for (const std::size_t i : moving) result.identifiable[i] = false;
-      result.warnings.push_back(describe(
-          problem, moving, change, fmt::format("singular value {:.1e} of the largest", singular[k] / singular[0])));
-      continue;
-    }
-    Eigen::VectorXd part(n);
-    for (Eigen::Index j = 0; j < n; ++j) part[j] = change[v.places[static_cast<std::size_t>(j)]];
-    covariance += part * part.transpose() / (singular[k] * singular[k]);
-    // A direction may be seen by noise-free data and still be lost in the noise of these.
-    const double error = std::sqrt(std::max(0.0, variance)) * part.cwiseAbs().maxCoeff() / singular[k];
-    if (error > kUndetermined) {
-      const std::vector<std::size_t> moving = taking_part(change);
-      for (const std::size_t i : moving) result.identifiable[i] = false;
-      result.warnings.push_back(
-          describe(problem, moving, change, fmt::format("standard error of the logarithm {:.2g}", error)));
-    }
-  }
-  for (Eigen::Index a = 0; a < n; ++a) {
-    const auto i = v.places[static_cast<std::size_t>(a)];
+  const Spectrum all(at.jacobian, std::vector<bool>(count, false)), varying(at.jacobian, result.at_bound);
+  const double smallest = all.singular.minCoeff();
+  result.condition = smallest > 0 ? all.singular[0] / smallest : std::numeric_limits<double>::infinity();
+  find_unseen(problem, solution, all, result);
+  const double freedom = static_cast<double>(problem.points.size()) - static_cast<double>(varying.places.size());
+  if (!(freedom > 0) || varying.places.empty()) return result;
+  result.t95 = boost::math::quantile(boost::math::students_t(freedom), 0.975);
+  // Correlations do not depend on the size of the errors: data without any still have them.
+  const double variance = std::max(2 * solution.cost / freedom, std::numeric_limits<double>::min());
+  const Eigen::MatrixXd covariance = covariance_of(problem, solution, varying, variance, result);
+  for (const Eigen::Index i : varying.places) {
     if (result.identifiable[static_cast<std::size_t>(i)])
-      result.standard_error[static_cast<std::size_t>(i)] = std::sqrt(variance * covariance(a, a));
-    for (Eigen::Index b = 0; b < n; ++b) {
-      const double norm = std::sqrt(covariance(a, a) * covariance(b, b));
-      if (a != b && norm > 0) result.correlation(i, v.places[static_cast<std::size_t>(b)]) = covariance(a, b) / norm;
+      result.standard_error[static_cast<std::size_t>(i)] = std::sqrt(covariance(i, i));
+    for (const Eigen::Index j : varying.places) {
+      const double norm = std::sqrt(covariance(i, i)) * std::sqrt(covariance(j, j));
+      if (i != j && norm > 0) result.correlation(i, j) = covariance(i, j) / norm;
     }
   }
   return result;
