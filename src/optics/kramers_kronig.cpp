@@ -1,0 +1,151 @@
+#include "optics/kramers_kronig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "base/error.h"
+#include "base/number.h"
+
+namespace gonio {
+namespace {
+
+/// ∫_0^x ln|(t + 1)/(t - 1)| dt/t: what a power law from 0 to x weighs in the phase at 1.
+double kernel_integral(double x) {
+  return x <= 1 ? 2 * legendre_chi2(x) : square(kPi<double>) / 2 - 2 * legendre_chi2(1 / x);
+}
+
+/// The same from x to infinity.
+double tail_integral(double x) { return square(kPi<double>) / 2 - kernel_integral(x); }
+
+/// The points 1 - R ~ √ω adds below the band, from low to high: four an octave, down to where R has reached 1.
+void extend_hagen_rubens(std::vector<double>& frequency, std::vector<double>& log_amplitude) {
+  const double first = frequency.front(), loss = 1 - std::exp(2 * log_amplitude.front());
+  std::vector<double> x, l;
+  for (int step = 120; step >= 1; --step) {
+    const double ratio = std::exp2(-0.25 * step);
+    x.push_back(first * ratio), l.push_back(0.5 * std::log1p(-loss * std::sqrt(ratio)));
+  }
+  frequency.insert(frequency.begin(), x.begin(), x.end());
+  log_amplitude.insert(log_amplitude.begin(), l.begin(), l.end());
+}
+
+/// The range of k over an interval of phases: it has one maximum, where cos φ = 2√R/(1+R).
+std::pair<double, double> range_of_k(double reflectance, double phase_lo, double phase_hi) {
+  const double a = index_of_reflection(reflectance, phase_lo).k, b = index_of_reflection(reflectance, phase_hi).k;
+  const double peak = std::acos(std::min(1.0, 2 * std::sqrt(reflectance) / (1 + reflectance)));
+  const bool inside = phase_lo < peak && peak < phase_hi;
+  return {std::min(a, b), inside ? index_of_reflection(reflectance, peak).k : std::max(a, b)};
+}
+
+void check(const Spectrum& data, const KramersKronigAssumption& assumption) {
+  if (data.wavelength_nm.size() < 3)
+    throw input_error("Kramers-Kronig: {} points of reflectance; expected at least three", data.wavelength_nm.size());
+  for (std::size_t i = 0; i < data.value.size(); ++i)
+    if (!(data.value[i] > 0 && data.value[i] <= 1))
+      throw input_error("Kramers-Kronig: R = {} at {} nm; expected 0 < R <= 1", data.value[i], data.wavelength_nm[i]);
+  if (!(assumption.decay_exponent >= 0 && assumption.decay_exponent <= 4))
+    throw input_error("Kramers-Kronig: decay exponent {}; expected 0 to 4", assumption.decay_exponent);
+  for (const double least : {assumption.least_longer, assumption.least_shorter})
+    if (!(least > 0 && least <= 1))
+      throw input_error("Kramers-Kronig: least reflectance {} outside the band; expected 0 < R <= 1", least);
+}
+
+}  // namespace
+
+double legendre_chi2(double z) {
+  if (z >= 1) return square(kPi<double>) / 8;
+  if (z > 0.4142135623730951)  // its mirror (1-z)/(1+z) is smaller there, so that the series needs at most 25 terms
+    return square(kPi<double>) / 8 + std::log(z) * std::atanh(z) - legendre_chi2((1 - z) / (1 + z));
+  double sum = 0, power = z;
+  for (int j = 1; power > 1e-18 * z; j += 2, power *= z * z) sum += power / (double(j) * j);
+  return sum;
+}
+
+IndexOfReflection index_of_reflection(double reflectance, double phase) {
+  const double root = std::sqrt(reflectance), half = std::sin(phase / 2);
+  const double below = square(1 - root) + 4 * root * square(half);  // 1 - 2√R·cos φ + R
+  return {(1 - reflectance) / below, 2 * root * std::sin(phase) / below};
+}
+
+KramersKronig::KramersKronig(const Spectrum& reflectance, const KramersKronigAssumption& assumption)
+    : assumption_(assumption) {
+  check(reflectance, assumption);
+  for (std::size_t i = reflectance.value.size(); i-- > 0;) {
+    band_.frequency.push_back(1 / reflectance.wavelength_nm[i]);
+    band_.log_amplitude.push_back(0.5 * std::log(reflectance.value[i]));
+  }
+  const std::size_t count = band_.frequency.size();
+  for (std::size_t i = 0; i < count; ++i)
+    for (Curve* half : {&even_, &odd_})
+      if ((i % 2 == 1) == (half == &odd_) || i == 0 || i + 1 == count)
+        half->frequency.push_back(band_.frequency[i]), half->log_amplitude.push_back(band_.log_amplitude[i]);
+  extended_ = band_;
+  if (assumption.hagen_rubens)
+    for (Curve* curve : {&extended_, &even_, &odd_}) extend_hagen_rubens(curve->frequency, curve->log_amplitude);
+}
+
+double KramersKronig::lo_nm() const { return 1 / band_.frequency.back(); }
+double KramersKronig::hi_nm() const { return 1 / band_.frequency.front(); }
+
+KramersKronigIndex KramersKronig::at(double wavelength_nm) const {
+  const double first = band_.frequency.front(), last = band_.frequency.back();
+  const double w = std::clamp(1 / wavelength_nm, first, last);
+  const double assumed = assumed_phase(extended_, w);
+  const double interpolation = std::abs(assumed - assumed_phase(even_, w)) + std::abs(assumed - assumed_phase(odd_, w));
+  const Interval outside = outside_phase(w);
+  const double inside = band_phase(band_, w);
+
+  KramersKronigIndex result;
+  result.reflectance = std::exp(2 * log_amplitude_at(w));
+  const auto allowed = [](double phase) { return std::clamp(phase, 0.0, kPi<double>); };
+  result.phase = allowed(assumed);
+  result.phase_lo = allowed(inside + outside.lo - interpolation);
+  result.phase_hi = allowed(inside + outside.hi + interpolation);
+  const IndexOfReflection index = index_of_reflection(result.reflectance, result.phase);
+  result.n = index.n, result.k = index.k;
+  result.n_lo = index_of_reflection(result.reflectance, result.phase_hi).n;  // n falls with the phase
+  result.n_hi = index_of_reflection(result.reflectance, result.phase_lo).n;
+  std::tie(result.k_lo, result.k_hi) = range_of_k(result.reflectance, result.phase_lo, result.phase_hi);
+  return result;
+}
+
+double KramersKronig::log_amplitude_at(double frequency) const {
+  const auto& x = band_.frequency;
+  const auto above = std::upper_bound(x.begin(), x.end(), frequency);
+  const std::size_t hi = std::clamp<std::size_t>(static_cast<std::size_t>(above - x.begin()), 1, x.size() - 1);
+  const double share = std::log(frequency / x[hi - 1]) / std::log(x[hi] / x[hi - 1]);
+  return (1 - share) * band_.log_amplitude[hi - 1] + share * band_.log_amplitude[hi];
+}
+
+double KramersKronig::band_phase(const Curve& curve, double frequency) const {
+  double sum = 0, below = kernel_integral(curve.frequency.front() / frequency);
+  for (std::size_t i = 1; i < curve.frequency.size(); ++i) {
+    const double above = kernel_integral(curve.frequency[i] / frequency);
+    sum += (curve.log_amplitude[i] - curve.log_amplitude[i - 1]) /
+           std::log(curve.frequency[i] / curve.frequency[i - 1]) * (above - below);
+    below = above;
+  }
+  return -sum / kPi<double>;
+}
+
+double KramersKronig::assumed_phase(const Curve& curve, double frequency) const {
+  return band_phase(curve, frequency) +
+         assumption_.decay_exponent / (2 * kPi<double>)*tail_integral(curve.frequency.back() / frequency);
+}
+
+KramersKronig::Interval KramersKronig::outside_phase(double frequency) const {
+  const double first = band_.frequency.front(), last = band_.frequency.back();
+  const double at_first = band_.log_amplitude.front(), at_last = band_.log_amplitude.back();
+  const double least_first = std::min(at_first, 0.5 * std::log(assumption_.least_longer));
+  const double least_last = std::min(at_last, 0.5 * std::log(assumption_.least_shorter));
+  const double low = std::log((frequency + first) / (frequency - first)) / kPi<double>;  // infinite at the ends,
+  const double high = std::log((last + frequency) / (last - frequency)) / kPi<double>;   // where R may jump
+  const auto times = [](double a, double b) { return a == 0 ? 0 : a * b; };
+  return {
+      times(least_first - at_first, low) + times(at_last, high),
+      times(-at_first, low) + times(at_last - least_last, high) + 2 / kPi<double> * tail_integral(last / frequency)};
+}
+
+}  // namespace gonio

@@ -1,0 +1,74 @@
+#pragma once
+// n and k from the reflectance at normal incidence alone (Kramers-Kronig), with what the finite band leaves open.
+//
+// r = (N-1)/(N+1) = √R·e^{iφ}; with L = ln √R and ω0 the frequency asked for,
+//   φ(ω0) = -(2ω0/π) P∫_0^∞ L(ω)/(ω² - ω0²) dω = -(1/π) ∫_0^∞ dL/dω · ln|(ω + ω0)/(ω - ω0)| dω,
+//   n = (1-R)/(1 - 2√R·cos φ + R),  k = 2√R·sin φ/(1 - 2√R·cos φ + R)          (F. Wooten, Optical Properties of
+// Solids, 1972, §6; Maillot 1996, §I.1.2, where the root is missing in print.)
+// Between the points ln R is taken linear in ln ω. Then each segment integrates in closed form (Legendre's chi_2) and
+// the singularity at ω0 needs no quadrature and no cut.
+//
+// Outside the band R is unknown; it is assumed (Assumption) and the result says what that costs: with R between
+// `least_longer` and 1 at longer wavelengths, between `least_shorter`·(λ/λ_min)^4 and 1 at shorter ones, φ lies
+// between phase_lo and phase_hi; what leaving out every second point changes is added; n_lo … k_hi
+// are the extremes over that interval. Where it is all of [0, π], the transform adds nothing to R.
+#include <vector>
+
+#include "spectrum/spectrum.h"
+
+namespace gonio {
+
+/// χ_2(z) = Σ z^(2j+1)/(2j+1)², 0 <= z <= 1: ∫_0^z artanh(t)/t dt.
+double legendre_chi2(double z);
+
+struct KramersKronigAssumption {
+  bool hagen_rubens = false;  ///< at longer wavelengths 1 - R falls as ω^½ (a conductor); otherwise R stays as it was
+  double decay_exponent = 2;  ///< at shorter wavelengths R ~ ω^-exponent (4: free electrons; 0: R stays as it was)
+  double least_longer = 0.01;   ///< the smallest R thought possible at longer wavelengths
+  double least_shorter = 0.01;  ///< and at shorter ones, falling with ω^-4
+};
+
+struct KramersKronigIndex {
+  double reflectance, phase;  ///< φ in radians, 0 to π
+  double n, k;
+  double phase_lo, phase_hi, n_lo, n_hi, k_lo, k_hi;
+};
+
+class KramersKronig {
+ public:
+  /// Reflectances over wavelengths in nm, at least three points. InputError for R <= 0 or R > 1 or an assumption out of
+  /// range.
+  explicit KramersKronig(const Spectrum& reflectance, const KramersKronigAssumption& assumption = {});
+
+  /// Requires a wavelength within the band.
+  KramersKronigIndex at(double wavelength_nm) const;
+  double lo_nm() const;
+  double hi_nm() const;
+
+ private:
+  struct Curve {  ///< ln √R over increasing frequency (1/nm)
+    std::vector<double> frequency, log_amplitude;
+  };
+  struct Interval {
+    double lo, hi;
+  };
+  double log_amplitude_at(double frequency) const;
+  /// The phase of a curve that stays as it is outside its points.
+  double band_phase(const Curve& curve, double frequency) const;
+  /// And with the assumed decay at high frequencies.
+  double assumed_phase(const Curve& curve, double frequency) const;
+  /// What R outside the band can add to band_phase of the data.
+  Interval outside_phase(double frequency) const;
+
+  KramersKronigAssumption assumption_;
+  Curve band_, extended_;  ///< the data; with its extension at low frequency
+  Curve even_, odd_;       ///< every second point of it, extended: how sure the interpolation is
+};
+
+/// n + ik from the reflectance and phase of the amplitude r; phase 0 to π, where R = 1 and phase = 0 have no index.
+struct IndexOfReflection {
+  double n, k;
+};
+IndexOfReflection index_of_reflection(double reflectance, double phase);
+
+}  // namespace gonio
