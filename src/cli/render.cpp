@@ -80,9 +80,12 @@ void run(const Arguments& arguments, const Common& common) {
   settings.max_depth = arguments.max_depth;
   settings.seed = common.seed;
   settings.threads = common.threads;
+  settings.variance = common.json;
   settings.strategy = strategy_from(arguments.strategy);
   settings.progress = [&](double done) { progress.show(done); };
   const RenderResult result = render(scene, settings);
+  if (result.dropped_paths > 0)
+    fmt::print(stderr, "render: {} paths overflowed and count as black\n", result.dropped_paths);
   write_spectral_exr(exr, result.image);
   write_png(png, result.image, arguments.exposure);
   if (common.json) {
@@ -93,6 +96,7 @@ void run(const Arguments& arguments, const Common& common) {
                                       {"wavelength_nm", scene.wavelengths_nm},
                                       {"spp", arguments.spp},
                                       {"seed", common.seed},
+                                      {"dropped_paths", result.dropped_paths},
                                       {"relative_noise_rms", relative_noise(result)}};
     fmt::print("{}\n", json.dump(2));
   }

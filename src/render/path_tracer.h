@@ -96,8 +96,8 @@ class PathTracer {
 
   static bool survives(Lanes& throughput, int depth, Random& random) {
     const double largest = static_cast<double>(throughput.largest());
-    if (!(largest > 0) || !std::isfinite(largest)) return false;
-    if (depth < kSureDepth || largest >= 1) return true;
+    if (largest <= 0) return false;
+    if (depth < kSureDepth || !(largest < 1)) return true;  // what overflowed goes on, to be counted with the pixel
     if (random.uniform() >= largest) return false;
     throughput *= static_cast<float>(1 / largest);
     return true;

@@ -4,7 +4,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "base/error.h"
 #include "materials/database.h"
@@ -100,7 +102,7 @@ class PixelSum {
 
 template <std::size_t N>
 void render_pixel(const PathTracer<N>& tracer, const Scene& scene, const Eye& eye, const RenderSettings& settings,
-                  std::size_t pixel, RenderResult& result) {
+                  std::size_t pixel, RenderResult& result, std::atomic<std::uint64_t>& dropped) {
   const std::size_t wavelengths = scene.wavelengths_nm.size(), width = static_cast<std::size_t>(scene.camera.width);
   Random random(settings.seed, pixel);
   PixelSum sum(wavelengths);
@@ -109,6 +111,10 @@ void render_pixel(const PathTracer<N>& tracer, const Scene& scene, const Eye& ey
     const double x = static_cast<double>(pixel % width) + random.uniform();
     const double y = static_cast<double>(pixel / width) + random.uniform();
     tracer.radiance(scene.camera.position, eye.towards(x, y), random).store(values);
+    if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); })) {
+      ++dropped;
+      values.fill(0);
+    }
     sum.add(values);
   }
   for (std::size_t w = 0; w < wavelengths; ++w) {
@@ -124,16 +130,18 @@ void render_rows(const Scene& scene, const RenderSettings& settings, RenderResul
   const auto width = static_cast<std::size_t>(scene.camera.width),
              height = static_cast<std::size_t>(scene.camera.height);
   std::atomic<std::size_t> done{0};
+  std::atomic<std::uint64_t> dropped{0};
   const auto allowed =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, allowed) : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t row) {
       for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel)
-        render_pixel(tracer, scene, eye, settings, pixel, result);
+        render_pixel(tracer, scene, eye, settings, pixel, result, dropped);
       if (settings.progress) settings.progress(static_cast<double>(++done) / static_cast<double>(height));
     });
   });
+  result.dropped_paths = dropped;
 }
 
 /// The fewest batches that hold the wavelengths.
@@ -151,7 +159,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings) {
   if (settings.spp < 1 || settings.spp > 100'000'000)
     throw input_error("spp is {}; expected 1 to 100000000", settings.spp);
   if (settings.max_depth < 0) throw input_error("max_depth is {}; expected 0 or more", settings.max_depth);
-  RenderResult result{{scene.camera.width, scene.camera.height, scene.wavelengths_nm}, {}};
+  RenderResult result{{scene.camera.width, scene.camera.height, scene.wavelengths_nm}, {}, 0};
   if (settings.variance) result.variance.resize(result.image.radiance.size());
   dispatch<1>(scene, settings, result);
   return result;

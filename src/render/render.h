@@ -30,6 +30,8 @@ struct RenderResult {
   /// Of each value of image.radiance, the variance of that mean (standard error squared), from the sample variance of
   /// its paths; empty without settings.variance. 0 with one path a pixel.
   std::vector<double> variance;
+  /// Paths whose radiance overflowed float; they count as black. 0 in any sensible scene.
+  std::uint64_t dropped_paths = 0;
 };
 
 /// Spectral Monte Carlo path tracing. Same scene, seed and settings: same bits, whatever the number of threads.

@@ -10,6 +10,7 @@ namespace gonio {
 namespace {
 
 constexpr double kFarthest = 1e4;
+constexpr double kMostValues = 2.5e8;  // pixels times wavelengths: 2 GB in double
 
 void check_range(std::string_view what, double value, double lo, double hi) {
   if (!(value >= lo && value <= hi)) throw input_error("{} is {}; expected {} to {}", what, value, lo, hi);
@@ -70,6 +71,10 @@ double radiance_at(const Emission& emission, double wavelength_nm) {
 void check(const Scene& scene) {
   check_camera(scene.camera);
   check_wavelengths(scene.wavelengths_nm);
+  const double values =
+      1.0 * scene.camera.width * scene.camera.height * static_cast<double>(scene.wavelengths_nm.size());
+  if (values > kMostValues)
+    throw input_error("camera width x height x wavelengths is {}; expected at most {}", values, kMostValues);
   check_emission("environment", scene.environment, scene.wavelengths_nm);
   for (const SphereObject& sphere : scene.spheres) check_ball("sphere", sphere.center, sphere.radius);
   for (const SphericalLight& light : scene.lights) {

@@ -149,6 +149,28 @@ TEST_CASE("PCG32 is uniform and its streams differ", "[render]") {
   CHECK(std::abs(correlation) / std::sqrt(double(kDraws)) < gonio::test::sidak_bound(1));
 }
 
+TEST_CASE("every corner of every model's parameter box renders finite, non-negative radiances", "[render]") {
+  RenderSettings settings;
+  settings.spp = 4;
+  for (const ModelInfo& info : models()) {
+    const std::size_t corners = std::size_t{1} << info.parameters.size();
+    for (std::size_t corner = 0; corner < corners; ++corner) {
+      std::vector<double> values;
+      for (std::size_t p = 0; p < info.parameters.size(); ++p)
+        values.push_back((corner >> p & 1U) != 0 ? info.parameters[p].hi : info.parameters[p].lo);
+      for (const char* material : {"Au_Johnson", "perfect"}) {
+        const Scene scene = small({"corner", {info.id}, values, material, {}}, {400, 550, 700});
+        const RenderResult result = render(scene, settings);
+        std::size_t bad = 0;
+        for (const double radiance : result.image.radiance) bad += !(std::isfinite(radiance) && radiance >= 0);
+        INFO(info.name << ", corner " << corner << ", " << material << ": " << bad << " values");
+        CHECK(bad == 0);
+        CHECK(result.dropped_paths == 0);
+      }
+    }
+  }
+}
+
 TEST_CASE("what cannot be rendered is refused", "[render]") {
   RenderSettings settings;
   settings.spp = 0;
@@ -158,5 +180,8 @@ TEST_CASE("what cannot be rendered is refused", "[render]") {
   inside.camera.position = {0, 0, 1};
   CHECK_THROWS_AS(render(inside, settings), InputError);
   CHECK_THROWS_AS(render(small(gold(), {10000}), settings), InputError);  // outside the table's range
+  Scene huge = small(gold());
+  huge.camera.width = huge.camera.height = 16384;
+  CHECK_THROWS_AS(render(huge, settings), InputError);
   CHECK_THROWS_AS(strategy_from("best"), InputError);
 }
