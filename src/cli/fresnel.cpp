@@ -24,6 +24,9 @@ struct Index {
   std::string name, source;
 };
 
+/// Up to here a medium counts as transparent (glasses have k of 1e-9 to 1e-5): T = 1 - R enters it.
+constexpr double kTransparentK = 1e-4;
+
 Index index_from(const FresnelArguments& arguments) {
   if (arguments.id.empty()) {
     if (!arguments.n) throw input_error("gonio fresnel: no material; expected an ID with --at, or --n (and --k)");
@@ -49,7 +52,7 @@ Index index_from(const FresnelArguments& arguments) {
 }  // namespace
 
 void add_fresnel(CLI::App& app, Common& common) {
-  auto* command = app.add_subcommand("fresnel", "Fresnel reflectances R_s, R_p, R (and T when k = 0)");
+  auto* command = app.add_subcommand("fresnel", "Fresnel reflectances R_s, R_p, R (and T where k is below 1e-4)");
   command->footer("Example: gonio fresnel Au --at 550 --angles 0,30,60,85\n         gonio fresnel --n 1.5 --angles 56.31");
   add_common(*command, common);
   auto arguments = std::make_shared<FresnelArguments>();
@@ -62,19 +65,20 @@ void add_fresnel(CLI::App& app, Common& common) {
   command->callback([&common, arguments] {
     const std::vector<double> angles = number_list(arguments->angles, "--angles", 0, 90);
     const Index index = index_from(*arguments);
+    const bool transparent = index.k <= kTransparentK;
     Json rows = Json::array();
     std::string text = fmt::format("{}n = {:.6g}, k = {:.6g}{}\n", index.name.empty() ? "" : index.name + ": ", index.n, index.k,
                                    arguments->at_nm ? fmt::format(" at {:g} nm", *arguments->at_nm) : "");
     if (!index.source.empty()) text += fmt::format("source: {}\n", index.source);
-    text += fmt::format("{:>10} {:>12} {:>12} {:>12}{}\n", "theta_deg", "R_s", "R_p", "R", index.k == 0 ? "            T" : "");
+    text += fmt::format("{:>10} {:>12} {:>12} {:>12}{}\n", "theta_deg", "R_s", "R_p", "R", transparent ? "            T" : "");
     for (const double theta_deg : angles) {
       const Polarised<double> r = fresnel(cos_deg(theta_deg), index.n, index.k);
       const double mean = r.unpolarised();
       Json row{{"theta_deg", theta_deg}, {"R_s", r.s}, {"R_p", r.p}, {"R", mean}};
-      if (index.k == 0) row.update({{"T_s", 1 - r.s}, {"T_p", 1 - r.p}, {"T", 1 - mean}});
+      if (transparent) row.update({{"T_s", 1 - r.s}, {"T_p", 1 - r.p}, {"T", 1 - mean}});
       rows.push_back(row);
       text += fmt::format("{:>10g} {:>12.8f} {:>12.8f} {:>12.8f}{}\n", theta_deg, r.s, r.p, mean,
-                          index.k == 0 ? fmt::format(" {:>12.8f}", 1 - mean) : "");
+                          transparent ? fmt::format(" {:>12.8f}", 1 - mean) : "");
     }
     if (common.json) {
       Json json{{"n", index.n}, {"k", index.k}, {"wavelength_nm", arguments->at_nm ? Json(*arguments->at_nm) : Json(nullptr)}};

@@ -64,12 +64,13 @@ Json card_json(const Database& database, const Entry& entry) {
   card["aliases"] = database.aliases_of(entry.id);
   for (const auto& [key, text] : optional_fields(entry)) card[key] = text.empty() ? "not stated" : text;
   card["confidence"] = entry.confidence;
-  if (entry.formula.empty()) {
-    card["columns"] = entry.column_names;
-    card["points"] = entry.wavelength_nm.size();
-  } else {
+  if (!entry.formula.empty()) {
     card["formula"] = entry.formula;
     card["coefficients"] = entry.coefficients;
+  }
+  if (!entry.wavelength_nm.empty()) {
+    card["columns"] = entry.column_names;
+    card["points"] = entry.wavelength_nm.size();
   }
   return card;
 }
@@ -88,8 +89,9 @@ std::string card_text(const Database& database, const Entry& entry) {
   if (entry.formula.empty())
     line("data", fmt::format("{} points: {}", entry.wavelength_nm.size(), fmt::join(entry.column_names, ", ")));
   else
-    line("data", fmt::format("formula {}, coefficients {} (wavelength in um)", entry.formula,
-                             fmt::join(entry.coefficients, " ")));
+    line("data", fmt::format("n: formula {}, coefficients {} (wavelength in um){}", entry.formula,
+                             fmt::join(entry.coefficients, " "),
+                             entry.has_k() ? fmt::format("; k: {} points", entry.wavelength_nm.size()) : ""));
   for (const auto& [key, text] : optional_fields(entry))
     if (!text.empty() || std::string_view(key) != "note") line(key, text);
   line("confidence", entry.confidence), line("citation", entry.citation), line("licence", entry.licence);

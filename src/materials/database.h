@@ -10,8 +10,8 @@
 namespace gonio {
 
 /// One entry of the database. Wavelengths in nm. Columns by kind: optical-constants n[, k]; reflectance, transmittance,
-/// illuminant, luminous-efficiency one column; observer three (xbar, ybar, zbar). A dispersion formula replaces the
-/// table.
+/// illuminant, luminous-efficiency one column; observer (xbar, ybar, zbar), cone-fundamentals (l, m, s), rgb-observer
+/// (rbar, gbar, bbar), daylight-basis (S0, S1, S2) three. A dispersion formula stands for n; a table of k may follow.
 struct Entry {
   std::string id, name, kind, unit, specimen, temperature, method, citation, doi, licence, confidence, note;
   double range_lo_nm = 0, range_hi_nm = 0;    ///< what the entry covers
@@ -20,7 +20,7 @@ struct Entry {
   std::vector<double> coefficients;           ///< of the formula, wavelength in µm
   std::vector<double> wavelength_nm;          ///< of the table, increasing
   std::vector<std::string> column_names;
-  std::vector<std::vector<double>> columns;  ///< columns[c][row]
+  std::vector<std::vector<double>> columns;  ///< columns[c][row]; n of a formula has none
   std::string file;                          ///< where it was read
 
   bool has_k() const;
@@ -69,7 +69,8 @@ class SurfaceMaterial {
   const Entry* entry() const { return entry_; }
   double range_lo_nm() const;  ///< 0 for `perfect`
   double range_hi_nm() const;  ///< infinity for `perfect`
-  /// InputError outside the range, or where an optical-constants entry lacks k and is no dielectric.
+  /// InputError outside the range, or where k is not known. A formula's medium whose k nowhere exceeds 1e-4 counts as
+  /// transparent outside its table of k: that changes no reflectance by more than 1e-8.
   Interface<double> at(double wavelength_nm) const;
 
  private:

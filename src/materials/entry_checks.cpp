@@ -42,14 +42,31 @@ Limits limits_of(const std::string& column) {
   if (column == "k") return {0, 1e4, true, "0 to 10000"};
   if (column == "reflectance" || column == "transmittance") return {0, 1 + kNoise, true, "0 to 1 (1.02 with noise)"};
   if (column == "relative_power") return {0, 1e12, true, "at least 0"};
+  if (column == "rbar" || column == "gbar" || column == "bbar") return {-10, 10, true, "-10 to 10"};
+  if (column == "S0" || column == "S1" || column == "S2") return {-1000, 1000, true, "-1000 to 1000"};
   return {0, 10, true, "0 to 10"};  // luminous efficiencies and colour-matching functions
+}
+
+const char* coefficients_in_words(Dispersion formula) {
+  switch (formula) {
+    case Dispersion::kRefractiveIndexInfo:
+      return "5, 9 or a greater odd number";
+    case Dispersion::kHerzberger:
+      return "3 to 6";
+    case Dispersion::kRetro:
+      return "4";
+    case Dispersion::kExotic:
+      return "6";
+    default:
+      return "an odd number (c0, then pairs)";
+  }
 }
 
 void check_formula(const Entry& entry) {
   const Dispersion formula = *dispersion_named(entry.formula);
   if (!takes_coefficients(formula, entry.coefficients.size()))
-    throw input_error("{}: {} coefficients; formula {} expects an odd number (c0, then pairs)", entry.file,
-                      entry.coefficients.size(), entry.formula);
+    throw input_error("{}: {} coefficients; formula {} expects {}", entry.file, entry.coefficients.size(),
+                      entry.formula, coefficients_in_words(formula));
   constexpr int kProbes = 256;
   for (int i = 0; i <= kProbes; ++i) {
     const double nm = entry.range_lo_nm + (entry.range_hi_nm - entry.range_lo_nm) * i / kProbes;
@@ -59,9 +76,21 @@ void check_formula(const Entry& entry) {
   }
 }
 
-void check_table(const Entry& entry) {
+void check_rows(const Entry& entry) {
   if (entry.wavelength_nm.size() < 2)
     throw input_error("{}: {} rows in the table; expected at least 2", entry.file, entry.wavelength_nm.size());
+}
+
+/// A table of k beside a formula for n lies within the formula's range.
+void check_k_table(const Entry& entry) {
+  check_rows(entry);
+  if (entry.wavelength_nm.front() < entry.range_lo_nm || entry.wavelength_nm.back() > entry.range_hi_nm)
+    throw input_error("{}: the table of k covers {} to {} nm; expected it within range_nm {} {}", entry.file,
+                      entry.wavelength_nm.front(), entry.wavelength_nm.back(), entry.range_lo_nm, entry.range_hi_nm);
+}
+
+void check_table(const Entry& entry) {
+  check_rows(entry);
   if (entry.wavelength_nm.front() != entry.range_lo_nm || entry.wavelength_nm.back() != entry.range_hi_nm)
     throw input_error("{}: range_nm is {} {}; expected that of the table, {} {}", entry.file, entry.range_lo_nm,
                       entry.range_hi_nm, entry.wavelength_nm.front(), entry.wavelength_nm.back());
@@ -102,8 +131,8 @@ void check_header(const Entry& entry) {
       need(!entry.confidence.empty(), "confidence");
   if (columns_of_kind(entry.kind).empty())
     throw input_error(
-        "{}: kind is '{}'; expected optical-constants, reflectance, transmittance, illuminant, observer or "
-        "luminous-efficiency",
+        "{}: kind is '{}'; expected optical-constants, reflectance, transmittance, illuminant, observer, "
+        "luminous-efficiency, cone-fundamentals, rgb-observer or daylight-basis",
         entry.file, entry.kind);
   if (entry.confidence != "high" && entry.confidence != "medium" && entry.confidence != "low")
     throw input_error("{}: confidence is '{}'; expected high, medium or low", entry.file, entry.confidence);
@@ -116,9 +145,8 @@ void check_header(const Entry& entry) {
   if (entry.kind != "optical-constants")
     throw input_error("{}: a formula for kind {}; expected optical-constants", entry.file, entry.kind);
   if (!dispersion_named(entry.formula))
-    throw input_error(
-        "{}: formula is '{}'; expected sellmeier, sellmeier-2, polynomial, refractiveindex-info, cauchy or gases",
-        entry.file, entry.formula);
+    throw input_error("{}: formula is '{}'; expected one of {}", entry.file, entry.formula,
+                      fmt::join(kDispersionNames, ", "));
 }
 
 void check_entry(const Entry& entry) {
@@ -126,6 +154,7 @@ void check_entry(const Entry& entry) {
     check_table(entry);
   else
     check_formula(entry);
+  if (!entry.formula.empty() && !entry.wavelength_nm.empty()) check_k_table(entry);
 }
 
 }  // namespace gonio

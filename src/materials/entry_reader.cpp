@@ -26,7 +26,9 @@ const std::vector<std::string>& columns_of_kind(std::string_view kind) {
   static const std::map<std::string, std::vector<std::string>, std::less<>> columns = {
       {"optical-constants", {"n", "k"}},       {"reflectance", {"reflectance"}},
       {"transmittance", {"transmittance"}},    {"illuminant", {"relative_power"}},
-      {"luminous-efficiency", {"efficiency"}}, {"observer", {"xbar", "ybar", "zbar"}}};
+      {"luminous-efficiency", {"efficiency"}}, {"observer", {"xbar", "ybar", "zbar"}},
+      {"cone-fundamentals", {"l", "m", "s"}},  {"rgb-observer", {"rbar", "gbar", "bbar"}},
+      {"daylight-basis", {"S0", "S1", "S2"}}};
   static const std::vector<std::string> none;
   const auto found = columns.find(kind);
   return found == columns.end() ? none : found->second;
@@ -138,8 +140,10 @@ void read_column_names(Entry& entry, Lines& lines) {
     throw input_error("{}:{}: the table is missing; expected a header row", lines.file(), lines.number());
   const std::vector<std::string_view> names = split(line, ',');
   entry.column_names.assign(names.begin() + 1, names.end());
-  const std::vector<std::string>& known = columns_of_kind(entry.kind);
-  std::vector<std::string> without_k(known.begin(), known.end() - (entry.kind == "optical-constants"));
+  const std::vector<std::string> known =
+      entry.formula.empty() ? columns_of_kind(entry.kind) : std::vector<std::string>{"k"};
+  const bool k_optional = entry.formula.empty() && entry.kind == "optical-constants";
+  const std::vector<std::string> without_k(known.begin(), known.end() - k_optional);
   if (names[0] != "wavelength_nm" || (entry.column_names != known && entry.column_names != without_k))
     throw input_error("{}:{}: the columns are '{}'; expected wavelength_nm,{}", lines.file(), lines.number(), line,
                       fmt::join(known, ","));
@@ -188,11 +192,13 @@ Entry read_entry(std::string_view text, const std::string& file) {
   Lines lines(text, file);
   const bool table = read_header(entry, lines);
   check_header(entry);
-  if (!entry.formula.empty() && table)
-    throw input_error("{}:{}: a table after a dispersion formula; expected one or the other", file, lines.number());
   if (entry.formula.empty() && !table)
     throw input_error("{}:{}: no line ---; expected the table after it, or a formula", file, lines.number());
   if (table) read_table(entry, lines);
+  if (table && !entry.formula.empty()) {  // n by the formula, k by the table
+    entry.column_names.insert(entry.column_names.begin(), "n");
+    entry.columns.emplace(entry.columns.begin());
+  }
   check_entry(entry);
   return entry;
 }

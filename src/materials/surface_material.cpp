@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,15 @@ Interface<double> interface_of_reflectance(double r0) {
   if (r0 >= 1) return perfect_interface<double>();
   const double root = std::sqrt(r0);
   return {(1 + root) / (1 - root), 0.0};
+}
+
+double extinction(const Entry& entry, double nm) {
+  constexpr double kTransparent = 1e-4;
+  if (!entry.has_k()) return 0;
+  const std::vector<double>& known = entry.columns[1];
+  const bool outside = nm < entry.wavelength_nm.front() || nm > entry.wavelength_nm.back();
+  if (!entry.formula.empty() && outside && *std::max_element(known.begin(), known.end()) <= kTransparent) return 0;
+  return entry.at(nm, 1);
 }
 
 }  // namespace
@@ -43,7 +53,7 @@ Interface<double> SurfaceMaterial::at(double wavelength_nm) const {
   if (!entry_) return perfect_interface<double>();
   const double value = entry_->at(wavelength_nm);
   if (from_reflectance_) return interface_of_reflectance(value);
-  return {value, entry_->has_k() ? entry_->at(wavelength_nm, 1) : 0.0};
+  return {value, extinction(*entry_, wavelength_nm)};
 }
 
 }  // namespace gonio

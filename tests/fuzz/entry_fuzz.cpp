@@ -1,5 +1,6 @@
 // Any bytes as an entry of materials_db: an Entry that can be evaluated all over its range, or an InputError, nothing
 // else.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -12,7 +13,7 @@ namespace {
 
 /// Inside its range a value is finite and non-negative (or k is said not to be known there).
 void evaluate(const gonio::Entry& entry) {
-  const std::size_t columns = entry.formula.empty() ? entry.columns.size() : 1;
+  const std::size_t columns = std::max<std::size_t>(entry.columns.size(), 1);
   for (int i = 0; i <= 16; ++i) {
     const double nm = std::lerp(entry.range_lo_nm, entry.range_hi_nm, i / 16.0);
     for (std::size_t c = 0; c < columns; ++c) try {

@@ -13,6 +13,7 @@ namespace {
 const std::string kHeader =
     "id: X\nname: x\nkind: optical-constants\nunit: 1\nrange_nm: 400 700\nsource_range_nm: 400 700\n"
     "citation: somebody (1999)\nlicence: CC0 1.0\nconfidence: high\n";
+const std::string kCauchy = kHeader + "formula: cauchy\ncoefficients: 1.5 0.01 -2\n";
 const std::string kTable = "---\nwavelength_nm,n,k\n400,1.5,0\n500,1.4,0.1\n700,1.3,0.2\n";
 
 std::string with(const std::string& text, const std::string& from, const std::string& to) {
@@ -56,6 +57,28 @@ TEST_CASE("A column k may be absent: transparent", "[materials]") {
   const Entry entry = read_entry(kHeader + "---\nwavelength_nm,n\n400,1.5\n700,1.4\n", "x.txt");
   CHECK_FALSE(entry.has_k());
   CHECK(entry.at(550) == Approx(1.45));
+}
+
+TEST_CASE("A formula gives n over its range, a table after it k where the source knows it", "[materials]") {
+  const Entry entry = read_entry(kCauchy + "---\nwavelength_nm,k\n450,2e-8\n500,4e-8\n", "x.txt");
+  CHECK(entry.has_k());
+  CHECK(entry.at(400) == Approx(1.5 + 0.01 / 0.16).epsilon(1e-15));
+  CHECK(entry.at(475, 1) == Approx(3e-8).epsilon(1e-14));
+  CHECK_THROWS_WITH(entry.at(400, 1), Catch::Contains("k is not known at 400 nm"));
+  CHECK_THROWS_WITH(entry.at(399), Catch::Contains("400 to 700 nm"));
+  CHECK_FALSE(read_entry(kCauchy, "x.txt").has_k());
+}
+
+TEST_CASE("Only the components that change sign may be negative", "[materials]") {
+  const auto entry = [](const std::string& kind, const std::string& columns, const std::string& row) {
+    return with(kHeader, "optical-constants", kind) + "---\nwavelength_nm," + columns + "\n400,1,1,1\n700," + row +
+           "\n";
+  };
+  CHECK(refusal(entry("daylight-basis", "S0,S1,S2", "63.3,-12,-3")) == "accepted");
+  CHECK(refusal(entry("rgb-observer", "rbar,gbar,bbar", "0.1,-0.2,0.3")) == "accepted");
+  CHECK(refusal(entry("cone-fundamentals", "l,m,s", "0.1,0.2,0")) == "accepted");
+  CHECK_THAT(refusal(entry("cone-fundamentals", "l,m,s", "0.1,-0.2,0")), Catch::Contains("x.txt:13: m is -0.2"));
+  CHECK_THAT(refusal(entry("observer", "xbar,ybar,zbar", "0.1,-0.2,0")), Catch::Contains("x.txt:13: ybar is -0.2"));
 }
 
 TEST_CASE("Malformed entries are refused, naming file, line and expectation", "[materials]") {
@@ -103,8 +126,14 @@ TEST_CASE("Malformed entries are refused, naming file, line and expectation", "[
       {kHeader + with(kTable, "1.4", "0"), "x.txt:13: n is 0"},
       {kHeader + with(kTable, "0.1", "-0.1"), "x.txt:13: k is -0.1"},
       {kHeader + "formula: cauchy\n", "x.txt: formula and coefficients go together"},
-      {kHeader + "formula: cauchy\ncoefficients: 1.5 0.01 -2\n" + kTable, "a table after a dispersion formula"},
-      {kHeader + "formula: herzberger\ncoefficients: 1 2 3\n", "x.txt: formula is 'herzberger'"},
+      {kCauchy + kTable, "x.txt:13: the columns are 'wavelength_nm,n,k'; expected wavelength_nm,k"},
+      {kCauchy + "---\nwavelength_nm,k\n350,0\n500,0\n", "x.txt: the table of k covers 350 to 500 nm"},
+      {kCauchy + "---\nwavelength_nm,k\n450,0\n500,-1e-9\n", "x.txt:15: k is -1e-09"},
+      {kHeader + "formula: herzberg\ncoefficients: 1 2 3\n", "x.txt: formula is 'herzberg'"},
+      {kHeader + "formula: retro\ncoefficients: 1 2 3\n", "x.txt: 3 coefficients; formula retro expects 4"},
+      {kHeader + "formula: exotic\ncoefficients: 1 2 3 4 5\n", "x.txt: 5 coefficients; formula exotic expects 6"},
+      {kHeader + "formula: herzberger\ncoefficients: 1 2\n",
+       "x.txt: 2 coefficients; formula herzberger expects 3 to 6"},
       {kHeader + "formula: cauchy\ncoefficients: 1.5 0.01\n", "x.txt: 2 coefficients"},
       {kHeader + "formula: sellmeier\ncoefficients: -3 0 0\n", "x.txt: the formula gives n = "},
       {kHeader + "formula: cauchy\ncoefficients: 1.5 x 2\n", "x.txt:11: coefficients has 'x'"},
