@@ -146,3 +146,32 @@ TEST_CASE("95 % intervals hold the truth in 90 to 99 % of noisy repeats", "[fit]
     CHECK(inside[i] <= 0.99 * kRepeats);
   }
 }
+
+TEST_CASE("wavelengths share their parameters, and a relative scan has its own unit", "[fit][recovery]") {
+  const ModelSpec spec = spec_of("beckmann-kirchhoff");
+  const std::vector<double> truth{0.15, 2.5, 0.02, 0.8};
+  Measurement scan = empty_scan(10);
+  const Measurement red = [&] {
+    Measurement other = scan;
+    for (ScanPoint& p : other.points) p.wavelength_nm = 633;
+    return synthetic(other, spec, truth, SurfaceMaterial("Au").at(633));
+  }();
+  scan = synthetic(scan, spec, truth, SurfaceMaterial("Au").at(550));
+  scan.points.insert(scan.points.end(), red.points.begin(), red.points.end());
+  FitRequest request;
+  request.model = spec, request.starts = 2, request.material = "Au";
+  const FitResult two = fit(scan, request);
+  CHECK(two.wavelength_nm == std::vector<double>{550, 633});
+  CHECK(worst_error(two.values(), truth) < 1e-6);
+  CHECK(warns(two, "shared by 2 wavelengths"));
+
+  const std::vector<double> rough{0.2, 0.1, 0.9};
+  Measurement relative = synthetic(empty_scan(), spec_of("torrance-sparrow"), rough, perfect_interface<double>());
+  relative.quantity = "relative";
+  for (ScanPoint& p : relative.points) p.f_per_sr *= 12345;
+  request.model = spec_of("torrance-sparrow"), request.material = "perfect";
+  const FitResult unit = fit(relative, request);
+  CHECK(unit.value("m") == Approx(0.2).epsilon(1e-6));
+  CHECK(unit.value("ks") == Approx(0.9 * 12345).epsilon(1e-6));
+  CHECK(warns(unit, "the scan is relative"));
+}
