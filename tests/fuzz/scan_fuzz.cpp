@@ -17,8 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const gonio::Measurement scan = gonio::parse_scan(std::string_view(text).substr(0, split), "scan.csv", known);
     if (scan.points.empty()) std::abort();
     for (const gonio::ScanPoint& point : scan.points)
-      if (!std::isfinite(point.f_per_sr) || !(point.theta_o_deg < 90) ||
-          point.incidence >= scan.incidences_deg.size())
+      if (!std::isfinite(point.f_per_sr) || !(point.theta_o_deg < 90) || point.incidence >= scan.incidences_deg.size())
         std::abort();
   } catch (const gonio::InputError&) {
   }
