@@ -12,6 +12,7 @@
 #include "image/exr.h"
 #include "image/png.h"
 #include "render/render.h"
+#include "scene/fitted.h"
 #include "scene/scene.h"
 
 namespace gonio {
@@ -128,9 +129,9 @@ std::string energy_svg(const MaterialReport& report) {
   return gnuplot_svg(script + "\n", 680, 440);
 }
 
-SceneMaterial scene_material(const FittedMaterial& fitted, double scale) {
-  SceneMaterial material{"fitted", fitted.model, fitted.values, fitted.material.value_or("perfect"), {}};
-  if (fitted.n) material.fixed_interface = Interface<double>{*fitted.n, 0, false};
+/// The fitted material with kd and ks times `scale`.
+SceneMaterial scaled_material(const FittedMaterial& fitted, double scale) {
+  SceneMaterial material = scene_material("fitted", fitted, rendered_wavelengths(fitted));
   const auto& parameters = fitted.model.info().parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].linear) material.values[i] *= scale;
@@ -153,7 +154,7 @@ std::string render_caption(const MaterialReport& report, const FittedMaterial& m
 void render_one(MaterialReport& report, const FittedMaterial& material, double scale, const std::string& name, const fs::path& folder,
                 const ValidationSettings& settings) {
   say(settings, fmt::format("{}: rendering {}", report.id, name));
-  const Scene scene = validation_scene(scene_material(material, scale), rendered_wavelengths(material));
+  const Scene scene = validation_scene(scaled_material(material, scale), rendered_wavelengths(material));
   RenderSettings render_settings;
   render_settings.spp = settings.spp;
   render_settings.seed = settings.seed;

@@ -19,7 +19,7 @@ using Lobe = std::variant<Lambert, PseudoRealistic<T>, TorranceSparrow<T>, Beckm
 template <class T>
 struct Brdf {
   Lobe<T> lobe;
-  T kd{0}, ks{1};
+  T kd = T(0), ks = T(1);
 
   bool diffuse_times_r0() const { return std::holds_alternative<PseudoRealistic<T>>(lobe); }
 };

@@ -15,20 +15,25 @@ double sampling_alpha(const Lobe<double>& lobe, double wavelength_um) {
   return 1;
 }
 
-std::optional<DirectionSample> sample_half_vector(double alpha, const LocalDirection& o, double u1, double u2) {
-  const double tan2 = -alpha * alpha * std::log1p(-u1), cos_h = 1 / std::sqrt(1 + tan2), sin_h = std::sqrt(tan2) * cos_h;
-  const double phi = 2 * kPi<double> * u2, hx = sin_h * std::cos(phi), hy = sin_h * std::sin(phi);
+std::optional<DirectionSample> sample_visible_normal(double alpha, const LocalDirection& o, double u0, double u1,
+                                                     double u2) {
+  const double tan2 = -alpha * alpha * std::log(u1), cos_h = 1 / std::sqrt(1 + tan2), sin_h = std::sqrt(tan2) * cos_h;
+  const double phi = 2 * kPi<double> * u2;
+  double hx = sin_h * std::cos(phi), hy = sin_h * std::sin(phi);
+  const double in_plane = o.x * hx + o.y * hy, seen = std::max(0.0, o.z * cos_h + in_plane),
+               opposite = std::max(0.0, o.z * cos_h - in_plane);
+  if (u0 * (seen + opposite) >= seen) hx = -hx, hy = -hy;
   const double cos_d = o.x * hx + o.y * hy + o.z * cos_h;
-  if (cos_d <= 0) return std::nullopt;
+  if (cos_d <= 0) return {};
   const LocalDirection i{2 * cos_d * hx - o.x, 2 * cos_d * hy - o.y, 2 * cos_d * cos_h - o.z};
-  if (i.z <= 0) return std::nullopt;
-  return DirectionSample{i, beckmann_d(tan2, alpha) * cos_h / (4 * cos_d)};
+  if (i.z <= 0) return {};
+  return DirectionSample{i, visible_normal_pdf(alpha, i, o)};
 }
 
-double half_vector_pdf(double alpha, const LocalDirection& i, const LocalDirection& o) {
+double visible_normal_pdf(double alpha, const LocalDirection& i, const LocalDirection& o) {
   if (i.z <= 0 || o.z <= 0) return 0;
   const Directions<double> w = reduce(i.x, i.y, i.z, o.x, o.y, o.z);
-  return beckmann_d(w.tan2_h, alpha) * w.cos_h() / (4 * w.cos_d);
+  return beckmann_d(w.tan2_h, alpha) * std::min(1.0, 2 * w.cos_h() * o.z / w.cos_d) / (4 * o.z);
 }
 
 DirectionSample sample_cosine(double u1, double u2) {

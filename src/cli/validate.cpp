@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 struct ValidateArguments {
   std::vector<std::string> measurements;
   std::string out = "out";
-  int spp = 192;
+  int spp = 256;
 };
 
 std::vector<std::string> bundled_measurements() {

@@ -7,7 +7,7 @@ namespace gonio {
 /// The boundary a facet shows to light: complex index n + ik relative to the incident medium, or a perfect mirror.
 template <class T>
 struct Interface {
-  T n{1}, k{0};
+  T n = T(1), k = T(0);  // not {1}: a SIMD batch would take that for a list of lanes
   bool perfect = false;  ///< reflects 1 at every angle
 
   /// Unpolarised reflectance at the local angle of incidence (cos_d between a direction and the facet's normal).

@@ -7,7 +7,6 @@
 #include "brdf/sampling.h"
 #include "render/random.h"
 #include "render/spectral_lanes.h"
-#include "render/visible_normals.h"
 
 namespace gonio {
 

@@ -153,10 +153,10 @@ TEST_CASE("The sampled density integrates to one minus the share below the horiz
       std::vector<double> counts(std::size_t(rings * sectors)), expected(counts.size());
       double above = 0;
       for (int i = 0; i < samples; ++i) {
-        const auto s = sample_half_vector(alpha, o, uniform(random), uniform(random));
+        const auto s = sample_visible_normal(alpha, o, uniform(random), uniform(random), uniform(random));
         if (!s) continue;
         ++above;
-        REQUIRE(s->pdf_per_sr == Approx(half_vector_pdf(alpha, s->direction, o)).epsilon(1e-9));
+        REQUIRE(s->pdf_per_sr == Approx(visible_normal_pdf(alpha, s->direction, o)).epsilon(1e-9));
         const double phi = std::atan2(s->direction.y, s->direction.x) + kPi<double>;
         const int ring = std::min(rings - 1, int((1 - s->direction.z) * rings)), sector = std::min(sectors - 1, int(phi / (2 * kPi<double>)*sectors));
         ++counts[std::size_t(ring * sectors + sector)];
@@ -169,7 +169,7 @@ TEST_CASE("The sampled density integrates to one minus the share below the horiz
             for (int b = 0; b < fine; ++b) {
               const double z = 1 - (ring + (a + 0.5) / fine) / rings, phi = (sector + (b + 0.5) / fine) / sectors * 2 * kPi<double> - kPi<double>;
               const double r = std::sqrt(1 - z * z);
-              const double p = half_vector_pdf(alpha, {r * std::cos(phi), r * std::sin(phi), z}, o) * 2 * kPi<double> / (rings * sectors * fine * fine);
+              const double p = visible_normal_pdf(alpha, {r * std::cos(phi), r * std::sin(phi), z}, o) * 2 * kPi<double> / (rings * sectors * fine * fine);
               expected[std::size_t(ring * sectors + sector)] += p * samples;
               total += p;
             }
