@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "base/error.h"
 
@@ -45,22 +46,31 @@ std::string quoted(const std::string& path) {
   return word;
 }
 
-}  // namespace
-
-std::string gnuplot_svg(const std::string& script, int width, int height) {
-  const Script file(
-      fmt::format("set terminal svg size {},{} fixed enhanced font 'sans-serif,14' background '#ffffff' name 'gonio'\n"
-                  "set encoding utf8\n{}",
-                  width, height, script));
+/// What gnuplot draws to its standard output; `mark` is in every whole picture.
+std::string drawn(const std::string& terminal, const std::string& script, std::string_view mark) {
+  const Script file(fmt::format("set terminal {}\nset encoding utf8\n{}", terminal, script));
   const std::string command = "LC_ALL=C.UTF-8 gnuplot -d " + quoted(file.path()) + " 2>/dev/null";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) throw input_error("gnuplot: cannot be started; expected gnuplot 5 (package gnuplot-nox)");
-  std::string svg;
+  std::string picture;
   char part[4096];
-  for (std::size_t count; (count = std::fread(part, 1, sizeof part, pipe)) > 0;) svg.append(part, count);
-  if (::pclose(pipe) != 0 || svg.find("</svg>") == svg.npos)
+  for (std::size_t count; (count = std::fread(part, 1, sizeof part, pipe)) > 0;) picture.append(part, count);
+  if (::pclose(pipe) != 0 || picture.find(mark) == picture.npos)
     throw input_error("gnuplot: failed to draw; expected gnuplot 5 (package gnuplot-nox)");
-  return svg;
+  return picture;
+}
+
+}  // namespace
+
+std::string gnuplot_svg(const std::string& script, int width, int height) {
+  return drawn(fmt::format("svg size {},{} fixed enhanced font 'sans-serif,14' background '#ffffff' name 'gonio'",
+                           width, height),
+               script, "</svg>");
+}
+
+std::string gnuplot_png(const std::string& script, int width, int height) {
+  return drawn(fmt::format("pngcairo size {},{} enhanced font 'sans-serif,10' background '#ffffff'", width, height),
+               script, "IEND");
 }
 
 std::string gnuplot_text(const std::string& text) {

@@ -7,6 +7,9 @@ namespace gonio {
 /// InputError when gnuplot cannot be run. The same script gives the same bytes: nothing of the user's settings is read.
 std::string gnuplot_svg(const std::string& script, int width, int height);
 
+/// The same as a PNG.
+std::string gnuplot_png(const std::string& script, int width, int height);
+
 /// Text for gnuplot between single quotes, with its markup characters taken literally.
 std::string gnuplot_text(const std::string& text);
 

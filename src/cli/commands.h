@@ -17,8 +17,12 @@ struct Common {
 void add_common(CLI::App& command, Common& common);
 
 void add_materials(CLI::App& app, Common& common);
+void add_materials_kk(CLI::App& materials, Common& common);
+void add_materials_plot(CLI::App& materials, Common& common);
+void add_materials_swatch(CLI::App& materials, Common& common);
 void add_fresnel(CLI::App& app, Common& common);
 void add_color(CLI::App& app, Common& common);
+void add_light(CLI::App& app, Common& common);
 void add_models(CLI::App& app, Common& common);
 void add_eval(CLI::App& app, Common& common);
 void add_fit(CLI::App& app, Common& common);

@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   add_materials(app, common);
   add_fresnel(app, common);
   add_color(app, common);
+  add_light(app, common);
   add_models(app, common);
   add_eval(app, common);
   add_fit(app, common);

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "materials/database.h"
+#include "optics/absorption.h"
 
 namespace gonio::cli {
 namespace {
@@ -50,7 +51,12 @@ std::vector<std::pair<std::string, double>> values_at(const Database& database, 
   std::vector<std::pair<std::string, double>> values;
   if (entry.kind == "optical-constants") {
     const Interface<double> surface = SurfaceMaterial(entry.id, database).at(nm);
-    return {{"n", surface.n}, {"k", surface.k}, {"R_normal", surface.r0()}};
+    values = {{"n", surface.n}, {"k", surface.k}, {"R_normal", surface.r0()}};
+    if (surface.k > 0) {  // else the light is nowhere absorbed
+      values.emplace_back("field_depth_nm", field_depth(surface.k, nm));
+      values.emplace_back("intensity_depth_nm", intensity_depth(surface.k, nm));
+    }
+    return values;
   }
   for (std::size_t c = 0; c < entry.columns.size(); ++c) values.emplace_back(entry.column_names[c], entry.at(nm, c));
   if (entry.kind == "reflectance") values.emplace_back("R_normal", entry.at(nm));
@@ -182,6 +188,7 @@ void add_materials(CLI::App& app, Common& common) {
     const std::string folder = arguments->folder.empty() ? data_folder("materials_db").string() : arguments->folder;
     common.exit_code = check(folder, common.json) ? 0 : 1;
   });
+  add_materials_kk(*command, common), add_materials_plot(*command, common), add_materials_swatch(*command, common);
   for (auto* subcommand : {list, search, show_card, check_all}) add_common(*subcommand, common);
 }
 
