@@ -72,6 +72,18 @@ constexpr const char* kFrame =
     "set border lw 1 lc rgb '#404040'\nset tics out nomirror\nset grid lw 0.6 lc rgb '#DDDDDD'\n"
     "set key outside right top Left reverse samplen 1.4 spacing 1.15\n";
 
+/// A logarithmic axis; below two decades powers of ten would leave it without labels, so 1, 2, 3, 5 are labelled.
+std::string logarithmic_range(double lo, double hi) {
+  std::string script = fmt::format("set logscale y\nset yrange [{}:{}]\n", lo, hi);
+  if (hi / lo > 100) return script + "set format y '10^{%T}'\n";
+  std::string labels;
+  for (double decade = std::pow(10, std::floor(std::log10(lo))); decade < hi; decade *= 10)
+    for (const int digit : {1, 2, 3, 5})
+      if (digit * decade >= lo && digit * decade <= hi)
+        labels += fmt::format("{}'{:g}' {}", labels.empty() ? "" : ", ", digit * decade, digit * decade);
+  return script + "set ytics (" + labels + ")\n";
+}
+
 }  // namespace
 
 bool has_in_plane_curves(const FitResult& result) {
@@ -105,8 +117,7 @@ std::string in_plane_svg(const FitResult& result, bool logarithmic) {
                           held ? " (left out)" : "");
     lines += fmt::format(", \\\n  $f{} w l lw 1.8 {} lc rgb '{}' notitle", i, held ? "dt (8,4)" : "dt 1", colour(i));
   }
-  const std::string range = logarithmic ? fmt::format("set logscale y\nset format y '10^{{%T}}'\nset yrange [{}:{}]\n",
-                                                      std::max(bottom / 2, top * kFirstShareOfTop / 10), top * 2)
+  const std::string range = logarithmic ? logarithmic_range(std::max(bottom / 2, top * kFirstShareOfTop / 10), top * 2)
                                         : fmt::format("set yrange [0:{}]\n", top * 1.05);
   return gnuplot_svg(
       data + heading(result) + kFrame + range +

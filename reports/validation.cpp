@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "energy/limits_json.h"
 #include "energy/table.h"
 #include "fit/fit_json.h"
 #include "fit/fitted_material.h"
@@ -200,21 +201,6 @@ MaterialReport validate_measurement(const Measurement& measurement, const fs::pa
   render_one(report, material, 1, "sphere", folder, settings);
   if (report.scale_to_limit < 1) render_one(report, material, report.scale_to_limit, "sphere-at-the-limit", folder, settings);
   return report;
-}
-
-Json to_json(const Limits& limits) {
-  Json rows = Json::array();
-  for (const LimitRow& row : limits.rows)
-    rows.push_back({{"theta_deg", row.theta_deg}, {"E", row.e.value}, {"error", row.e.error}, {"wavelength_nm", row.wavelength_nm},
-                    {"coherent_energy", row.coherent}, {"total", row.total}});
-  return {{"ks_max", std::isfinite(limits.ks_max) ? Json(limits.ks_max) : Json(nullptr)},
-          {"kd_max", limits.kd_max},
-          {"E", rows},
-          {"coherent_energy", limits.coherent_energy},
-          {"range_nm", {limits.range_lo_nm, limits.range_hi_nm}},
-          {"conserving_to_deg", limits.theta_max_deg},
-          {"worst", {{"total", limits.worst_total}, {"theta_deg", limits.worst_theta_deg}, {"wavelength_nm", limits.worst_wavelength_nm}}},
-          {"holds", limits.holds()}};
 }
 
 Json to_json(const MaterialReport& report) {

@@ -55,6 +55,5 @@ MaterialReport validate_measurement(const Measurement& measurement, const std::f
 std::string validation_page(const std::vector<MaterialReport>& reports, const std::filesystem::path& folder);
 
 nlohmann::ordered_json to_json(const MaterialReport& report);
-nlohmann::ordered_json to_json(const Limits& limits);
 
 }  // namespace gonio

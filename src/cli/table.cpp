@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/subject.h"
-#include "energy/limits.h"
+#include "energy/limits_json.h"
 #include "energy/table.h"
 
 namespace gonio::cli {
@@ -22,26 +22,11 @@ struct TableArguments {
   std::optional<double> at_nm, ks;
 };
 
-Json limits_json(const Limits& limits, const Subject& subject, const std::vector<LimitRow>& rows) {
-  Json e = Json::array();
-  for (const LimitRow& row : rows) {
-    Json one{{"theta_deg", row.theta_deg}, {"E", row.e.value}, {"error", row.e.error}, {"total", row.total}};
-    if (row.wavelength_nm > 0) one["wavelength_nm"] = row.wavelength_nm;
-    if (subject.model.spec.id == ModelId::beckmann_kirchhoff) one["coherent_energy"] = row.coherent;
-    e.push_back(one);
-  }
-  const bool no_wavelength = limits.range_lo_nm == 0;
-  return {{"model", subject.model.spec.info().name},
-          {"material", subject.surface.name()},
-          {"ks_max", std::isfinite(limits.ks_max) ? Json(limits.ks_max) : Json(nullptr)},
-          {"kd_max", limits.kd_max},
-          {"E", e},
-          {"coherent_energy", limits.coherent_energy},
-          {"range_nm", no_wavelength ? Json(nullptr) : Json({limits.range_lo_nm, limits.range_hi_nm})},
-          {"conserving_to_deg", limits.theta_max_deg},
-          {"worst", {{"total", limits.worst_total}, {"theta_deg", limits.worst_theta_deg},
-                     {"wavelength_nm", no_wavelength ? Json(nullptr) : Json(limits.worst_wavelength_nm)}}},
-          {"holds", limits.holds()}};
+Json limits_json(Limits limits, const Subject& subject, const std::vector<LimitRow>& rows) {
+  limits.rows = rows;
+  Json json{{"model", subject.model.spec.info().name}, {"material", subject.surface.name()}};
+  json.update(to_json(limits));
+  return json;
 }
 
 void print_limits(const Limits& limits, const Subject& subject, const std::vector<LimitRow>& rows) {
