@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/curves.h"
 #include "materials/database.h"
@@ -18,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct KkArguments {
-  std::string id, longer = "constant", out;
+  std::string id, longer = "constant", known, out;
   double lo_nm = 0, hi_nm = 1e9;
   KramersKronigAssumption assumption;
 };
@@ -71,11 +72,22 @@ struct Row {
   KramersKronigIndex index;
 };
 
-std::vector<Row> transformed(const Spectrum& band, const KramersKronigAssumption& assumption) {
-  const KramersKronig transform(band, assumption);
+struct Result {
+  double decay_exponent;
   std::vector<Row> rows;
-  for (const double nm : band.wavelength_nm) rows.push_back({nm, transform.at(nm)});
-  return rows;
+};
+
+Result transformed(const Spectrum& band, const KramersKronigAssumption& assumption) {
+  const KramersKronig transform(band, assumption);
+  Result result{transform.decay_exponent(), {}};
+  for (const double nm : band.wavelength_nm) result.rows.push_back({nm, transform.at(nm)});
+  return result;
+}
+
+KnownIndex known_index(const std::string& text) {
+  const std::vector<double> numbers = number_list(text, "--known", 0, 1e6);
+  if (numbers.size() != 3) throw input_error("--known {}: {} numbers; expected NM,N,K", text, numbers.size());
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::string csv_of(const std::vector<Row>& rows) {
@@ -86,20 +98,22 @@ std::string csv_of(const std::vector<Row>& rows) {
   return csv;
 }
 
-std::string assumption_text(const KkArguments& a) {
+std::string assumption_text(const KkArguments& a, double decay_exponent) {
   return fmt::format(
-      "assumed outside: {} at longer wavelengths, R ~ frequency^-{:g} at shorter ones; the intervals allow R from {:g} "
+      "assumed outside: {} at longer wavelengths, R ~ frequency^-{:.3g} at shorter ones{}; the intervals allow R from "
+      "{:g} "
       "to 1 and from {:g} falling to 1",
-      a.longer == "constant" ? "R as it was" : "1 - R ~ frequency^(1/2)", a.assumption.decay_exponent,
-      a.assumption.least_longer, a.assumption.least_shorter);
+      a.longer == "constant" ? "R as it was" : "1 - R ~ frequency^(1/2)", decay_exponent,
+      a.known.empty() ? "" : " (from the known point)", a.assumption.least_longer, a.assumption.least_shorter);
 }
 
-Json json_of(const KkArguments& arguments, const std::vector<Row>& rows) {
+Json json_of(const KkArguments& arguments, const Result& result) {
+  const std::vector<Row>& rows = result.rows;
   Json json{{"id", arguments.id},
             {"range_nm", {rows.front().wavelength_nm, rows.back().wavelength_nm}},
             {"assumption",
              {{"longer", arguments.longer},
-              {"decay_exponent", arguments.assumption.decay_exponent},
+              {"decay_exponent", result.decay_exponent},
               {"least_longer", arguments.assumption.least_longer},
               {"least_shorter", arguments.assumption.least_shorter}}},
             {"rows", Json::array()}};
@@ -115,9 +129,11 @@ Json json_of(const KkArguments& arguments, const std::vector<Row>& rows) {
   return json;
 }
 
-std::string text_of(const KkArguments& arguments, const std::vector<Row>& rows) {
-  std::string text = fmt::format("{}: n, k from reflectance, {:g} to {:g} nm\n{}\n", arguments.id,
-                                 rows.front().wavelength_nm, rows.back().wavelength_nm, assumption_text(arguments));
+std::string text_of(const KkArguments& arguments, const Result& result) {
+  const std::vector<Row>& rows = result.rows;
+  std::string text =
+      fmt::format("{}: n, k from reflectance, {:g} to {:g} nm\n{}\n", arguments.id, rows.front().wavelength_nm,
+                  rows.back().wavelength_nm, assumption_text(arguments, result.decay_exponent));
   text +=
       fmt::format("{:>13} {:>8} {:>8} {:>8} {:>18} {:>18}\n", "wavelength_nm", "R", "n", "k", "n within", "k within");
   for (const auto& [nm, x] : rows)
@@ -136,7 +152,7 @@ void add_materials_kk(CLI::App& materials, Common& common) {
       "wide:\n"
       "that is the truth about such data.\n"
       "Example: gonio materials kk Au --longer hagen-rubens --least-longer 0.9\n"
-      "         gonio materials kk mirror.csv --out mirror-nk.csv");
+      "         gonio materials kk mirror.csv --known 589.3,0.27,2.9 --out mirror-nk.csv");
   add_common(*command, common);
   auto arguments = std::make_shared<KkArguments>();
   command->add_option("id", arguments->id, "Database id or alias, or FILE.csv")->required();
@@ -149,6 +165,8 @@ void add_materials_kk(CLI::App& materials, Common& common) {
       ->add_option("--decay", arguments->assumption.decay_exponent,
                    "Below the shortest wavelength R falls as this power of the frequency, 0 to 4")
       ->capture_default_str();
+  command->add_option("--known", arguments->known,
+                      "NM,N,K: the index at one wavelength within the band, which then chooses the power");
   command
       ->add_option("--least-longer", arguments->assumption.least_longer,
                    "The smallest R possible at longer wavelengths")
@@ -158,9 +176,10 @@ void add_materials_kk(CLI::App& materials, Common& common) {
   command->add_option("-o,--out", arguments->out, "A CSV of every column");
   command->callback([&common, arguments] {
     arguments->assumption.hagen_rubens = arguments->longer == "hagen-rubens";
-    const std::vector<Row> rows = transformed(reflectance_of(*arguments), arguments->assumption);
-    if (!arguments->out.empty()) write_file(arguments->out, csv_of(rows));
-    std::cout << (common.json ? json_of(*arguments, rows).dump(2) + "\n" : text_of(*arguments, rows));
+    if (!arguments->known.empty()) arguments->assumption.known = known_index(arguments->known);
+    const Result result = transformed(reflectance_of(*arguments), arguments->assumption);
+    if (!arguments->out.empty()) write_file(arguments->out, csv_of(result.rows));
+    std::cout << (common.json ? json_of(*arguments, result).dump(2) + "\n" : text_of(*arguments, result));
   });
 }
 

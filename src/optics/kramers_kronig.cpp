@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -63,6 +63,8 @@ double legendre_chi2(double z) {
   return sum;
 }
 
+double phase_of_index(double n, double k) { return std::atan2(2 * k, (n - 1) * (n + 1) + k * k); }
+
 IndexOfReflection index_of_reflection(double reflectance, double phase) {
   const double root = std::sqrt(reflectance), half = std::sin(phase / 2);
   const double below = square(1 - root) + 4 * root * square(half);  // 1 - 2√R·cos φ + R
@@ -70,7 +72,7 @@ IndexOfReflection index_of_reflection(double reflectance, double phase) {
 }
 
 KramersKronig::KramersKronig(const Spectrum& reflectance, const KramersKronigAssumption& assumption)
-    : assumption_(assumption) {
+    : assumption_(assumption), decay_exponent_(assumption.decay_exponent) {
   check(reflectance, assumption);
   for (std::size_t i = reflectance.value.size(); i-- > 0;) {
     band_.frequency.push_back(1 / reflectance.wavelength_nm[i]);
@@ -84,6 +86,16 @@ KramersKronig::KramersKronig(const Spectrum& reflectance, const KramersKronigAss
   extended_ = band_;
   if (assumption.hagen_rubens)
     for (Curve* curve : {&extended_, &even_, &odd_}) extend_hagen_rubens(curve->frequency, curve->log_amplitude);
+  if (assumption.known) decay_exponent_ = exponent_through(*assumption.known);
+}
+
+double KramersKronig::exponent_through(const KnownIndex& known) const {
+  if (!(known.wavelength_nm >= lo_nm() && known.wavelength_nm <= hi_nm()) || !(known.n > 0) || !(known.k >= 0))
+    throw input_error("Kramers-Kronig: known n = {}, k = {} at {} nm; expected n > 0, k >= 0 within {:g} to {:g} nm",
+                      known.n, known.k, known.wavelength_nm, lo_nm(), hi_nm());
+  const double w = 1 / known.wavelength_nm;
+  return (phase_of_index(known.n, known.k) - band_phase(extended_, w)) * 2 * kPi<double> /
+         tail_integral(band_.frequency.back() / w);
 }
 
 double KramersKronig::lo_nm() const { return 1 / band_.frequency.back(); }
@@ -98,25 +110,39 @@ KramersKronigIndex KramersKronig::at(double wavelength_nm) const {
   const double inside = band_phase(band_, w);
 
   KramersKronigIndex result;
-  result.reflectance = std::exp(2 * log_amplitude_at(w));
+  result.reflectance = std::exp(2 * log_amplitude_at(band_, w));
   const auto allowed = [](double phase) { return std::clamp(phase, 0.0, kPi<double>); };
   result.phase = allowed(assumed);
   result.phase_lo = allowed(inside + outside.lo - interpolation);
   result.phase_hi = allowed(inside + outside.hi + interpolation);
   const IndexOfReflection index = index_of_reflection(result.reflectance, result.phase);
   result.n = index.n, result.k = index.k;
-  result.n_lo = index_of_reflection(result.reflectance, result.phase_hi).n;  // n falls with the phase
-  result.n_hi = index_of_reflection(result.reflectance, result.phase_lo).n;
-  std::tie(result.k_lo, result.k_hi) = range_of_k(result.reflectance, result.phase_lo, result.phase_hi);
+  result.n_lo = result.k_lo = std::numeric_limits<double>::infinity();
+  result.n_hi = result.k_hi = 0;
+  const double unsure = amplitude_error(w);
+  for (const double shift : {-unsure, unsure}) {
+    const double r = std::min(1.0, result.reflectance * std::exp(2 * shift));
+    result.n_lo = std::min(result.n_lo, index_of_reflection(r, result.phase_hi).n);  // n falls with the phase
+    result.n_hi = std::max(result.n_hi, index_of_reflection(r, result.phase_lo).n);
+    const auto [k_lo, k_hi] = range_of_k(r, result.phase_lo, result.phase_hi);
+    result.k_lo = std::min(result.k_lo, k_lo), result.k_hi = std::max(result.k_hi, k_hi);
+  }
   return result;
 }
 
-double KramersKronig::log_amplitude_at(double frequency) const {
-  const auto& x = band_.frequency;
+double KramersKronig::amplitude_error(double frequency) const {
+  for (const double point : band_.frequency)
+    if (std::abs(point - frequency) <= 1e-12 * frequency) return 0;
+  const double here = log_amplitude_at(band_, frequency);
+  return std::abs(here - log_amplitude_at(even_, frequency)) + std::abs(here - log_amplitude_at(odd_, frequency));
+}
+
+double KramersKronig::log_amplitude_at(const Curve& curve, double frequency) {
+  const auto& x = curve.frequency;
   const auto above = std::upper_bound(x.begin(), x.end(), frequency);
   const std::size_t hi = std::clamp<std::size_t>(static_cast<std::size_t>(above - x.begin()), 1, x.size() - 1);
   const double share = std::log(frequency / x[hi - 1]) / std::log(x[hi] / x[hi - 1]);
-  return (1 - share) * band_.log_amplitude[hi - 1] + share * band_.log_amplitude[hi];
+  return (1 - share) * curve.log_amplitude[hi - 1] + share * curve.log_amplitude[hi];
 }
 
 double KramersKronig::band_phase(const Curve& curve, double frequency) const {
@@ -132,7 +158,7 @@ double KramersKronig::band_phase(const Curve& curve, double frequency) const {
 
 double KramersKronig::assumed_phase(const Curve& curve, double frequency) const {
   return band_phase(curve, frequency) +
-         assumption_.decay_exponent / (2 * kPi<double>)*tail_integral(curve.frequency.back() / frequency);
+         decay_exponent_ / (2 * kPi<double>)*tail_integral(curve.frequency.back() / frequency);
 }
 
 KramersKronig::Interval KramersKronig::outside_phase(double frequency) const {

@@ -10,8 +10,9 @@
 //
 // Outside the band R is unknown; it is assumed (Assumption) and the result says what that costs: with R between
 // `least_longer` and 1 at longer wavelengths, between `least_shorter`·(λ/λ_min)^4 and 1 at shorter ones, φ lies
-// between phase_lo and phase_hi; what leaving out every second point changes is added; n_lo … k_hi
-// are the extremes over that interval. Where it is all of [0, π], the transform adds nothing to R.
+// between phase_lo and phase_hi. What leaving out every second point changes (of the phase, and of R between points) is
+// added; n_lo … k_hi are the extremes over all that. Where it is all of [0, π], the transform adds nothing to R.
+#include <optional>
 #include <vector>
 
 #include "spectrum/spectrum.h"
@@ -21,11 +22,20 @@ namespace gonio {
 /// χ_2(z) = Σ z^(2j+1)/(2j+1)², 0 <= z <= 1: ∫_0^z artanh(t)/t dt.
 double legendre_chi2(double z);
 
+/// n and k known at one wavelength within the band, by ellipsometry say.
+struct KnownIndex {
+  double wavelength_nm, n, k;
+};
+
+/// The default decay is the one of least mean error over Rakić's eleven metals cut to 300-1100 nm and to the visible
+/// (reports/kramers-kronig); free electrons (4) are far from it so near the band.
 struct KramersKronigAssumption {
   bool hagen_rubens = false;  ///< at longer wavelengths 1 - R falls as ω^½ (a conductor); otherwise R stays as it was
-  double decay_exponent = 2;  ///< at shorter wavelengths R ~ ω^-exponent (4: free electrons; 0: R stays as it was)
-  double least_longer = 0.01;   ///< the smallest R thought possible at longer wavelengths
-  double least_shorter = 0.01;  ///< and at shorter ones, falling with ω^-4
+  double decay_exponent = 1.5;  ///< at shorter wavelengths R ~ ω^-exponent (4: free electrons; 0: R stays as it was)
+  std::optional<KnownIndex> known = {};  ///< chooses the exponent instead, so that the phase is right there (a fitted
+                                         ///< number, of any sign)
+  double least_longer = 0.01;            ///< the smallest R thought possible at longer wavelengths
+  double least_shorter = 0.01;           ///< and at shorter ones, falling with ω^-4
 };
 
 struct KramersKronigIndex {
@@ -42,6 +52,8 @@ class KramersKronig {
 
   /// Requires a wavelength within the band.
   KramersKronigIndex at(double wavelength_nm) const;
+  /// The assumed one, or the one that `known` asks for.
+  double decay_exponent() const { return decay_exponent_; }
   double lo_nm() const;
   double hi_nm() const;
 
@@ -52,18 +64,25 @@ class KramersKronig {
   struct Interval {
     double lo, hi;
   };
-  double log_amplitude_at(double frequency) const;
+  static double log_amplitude_at(const Curve& curve, double frequency);
+  /// How far ln √R between the points may be off, from leaving out every second of them.
+  double amplitude_error(double frequency) const;
   /// The phase of a curve that stays as it is outside its points.
   double band_phase(const Curve& curve, double frequency) const;
   /// And with the assumed decay at high frequencies.
   double assumed_phase(const Curve& curve, double frequency) const;
+  double exponent_through(const KnownIndex& known) const;
   /// What R outside the band can add to band_phase of the data.
   Interval outside_phase(double frequency) const;
 
   KramersKronigAssumption assumption_;
+  double decay_exponent_;
   Curve band_, extended_;  ///< the data; with its extension at low frequency
   Curve even_, odd_;       ///< every second point of it, extended: how sure the interpolation is
 };
+
+/// The phase of r for an index.
+double phase_of_index(double n, double k);
 
 /// n + ik from the reflectance and phase of the amplitude r; phase 0 to π, where R = 1 and phase = 0 have no index.
 struct IndexOfReflection {

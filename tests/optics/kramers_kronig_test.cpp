@@ -58,7 +58,7 @@ TEST_CASE("Legendre's chi function of order 2", "[optics]") {
 TEST_CASE("Index of a reflected amplitude: there and back", "[optics]") {
   for (const ComplexIndex<double> index :
        {ComplexIndex<double>{0.2, 3.4}, {1.5, 0}, {0.97, 6.7}, {4, 0.05}, {1.01, 0.01}, {30, 60}}) {
-    const double phase = std::atan2(2 * index.k, index.n * index.n + index.k * index.k - 1);
+    const double phase = phase_of_index(index.n, index.k);
     const IndexOfReflection back = index_of_reflection(normal_reflectance(index.n, index.k), phase);
     CHECK(back.n == Approx(index.n).epsilon(1e-10));
     CHECK(back.k == Approx(index.k).epsilon(1e-10).margin(1e-12));
@@ -130,6 +130,28 @@ TEST_CASE("Cut bands: it fails by tens of per cent, and the stated interval hold
       }
     CHECK(worst > 0.3);  // the failure is real: no reading of the visible alone gives n and k
   }
+}
+
+TEST_CASE("One known point within the band: exact there, and far better everywhere", "[optics]") {
+  for (const auto& [lo, hi] : {std::pair{300.0, 1100.0}, std::pair{360.0, 830.0}}) {
+    double blind = 0, anchored = 0;
+    for (const DrudeLorentz& metal : kRakicMetals) {
+      INFO(metal.metal << " from " << lo << " to " << hi);
+      const Spectrum reflectance = reflectance_of(metal, lo, hi, 401);
+      const ComplexIndex<double> known = index_of(metal, 589.3);
+      const KramersKronig transform(reflectance, {.known = KnownIndex{589.3, known.n, known.k}}), without(reflectance);
+      CHECK(error_of(transform.at(589.3), known) < 1e-4);
+      for (const double nm : geometric(400, 700, 25)) {
+        anchored += error_of(transform.at(nm), index_of(metal, nm)),
+            blind += error_of(without.at(nm), index_of(metal, nm));
+        CHECK(covers(transform.at(nm), index_of(metal, nm)));
+      }
+    }
+    CHECK(anchored < 0.35 * blind);
+  }
+  const Spectrum flat{{400, 500, 600}, {0.5, 0.5, 0.5}};
+  CHECK_THROWS_AS(KramersKronig(flat, {.known = KnownIndex{700, 1, 1}}), InputError);
+  CHECK_THROWS_AS(KramersKronig(flat, {.known = KnownIndex{500, 1, -1}}), InputError);
 }
 
 TEST_CASE("Tabulated metals: their own reflectance, cut to the table, within the stated interval", "[optics]") {
