@@ -15,7 +15,8 @@ WholeFile::WholeFile(fs::path target) : target_(std::move(target)) {
   temporary_ = target_;
   temporary_ += fmt::format(".{}.part", ::getpid());
   std::error_code error;
-  if (fs::is_directory(target_, error)) throw input_error("{}: is a folder; expected a file to write", target_.string());
+  if (fs::is_directory(target_, error))
+    throw input_error("{}: is a folder; expected a file to write", target_.string());
   if (!std::ofstream(temporary_, std::ios::binary))
     throw input_error("{}: cannot be written; expected an existing folder with write permission", target_.string());
 }
@@ -28,7 +29,8 @@ WholeFile::~WholeFile() {
 void WholeFile::commit() {
   std::error_code error;
   fs::rename(temporary_, target_, error);
-  if (error) throw input_error("{}: cannot be written ({}); expected a writable file", target_.string(), error.message());
+  if (error)
+    throw input_error("{}: cannot be written ({}); expected a writable file", target_.string(), error.message());
   committed_ = true;
 }
 
@@ -60,16 +62,42 @@ void make_folder(const fs::path& folder) {
                       error ? error.message() : "a file has that name");
 }
 
-fs::path data_folder(std::string_view name) {
+namespace {
+
+/// The first of $GONIO_HOME and the folders upwards from the program's that has it; empty when none has.
+template <class Wanted>
+fs::path beside_the_program(std::string_view name, Wanted wanted) {
   std::error_code error;
-  if (const char* home = std::getenv("GONIO_HOME")) {
-    if (fs::path folder = fs::path(home) / name; fs::is_directory(folder, error)) return folder;
+  if (const char* home = std::getenv("GONIO_HOME"))
+    if (fs::path path = fs::path(home) / name; wanted(path)) return path;
+  for (fs::path at = fs::read_symlink("/proc/self/exe", error).parent_path(); at != at.root_path();
+       at = at.parent_path()) {
+    if (fs::path path = at / name; wanted(path)) return path;
+    if (fs::path path = at / "share" / "gonio" / name; wanted(path)) return path;
   }
-  for (fs::path at = fs::read_symlink("/proc/self/exe", error).parent_path(); at != at.root_path(); at = at.parent_path()) {
-    if (fs::path folder = at / name; fs::is_directory(folder, error)) return folder;
-    if (fs::path folder = at / "share" / "gonio" / name; fs::is_directory(folder, error)) return folder;
-  }
-  throw input_error("{}: the data folder was not found; expected it beside the program or under $GONIO_HOME", name);
+  return {};
+}
+
+}  // namespace
+
+fs::path data_folder(std::string_view name) {
+  fs::path folder = beside_the_program(name, [](const fs::path& path) {
+    std::error_code error;
+    return fs::is_directory(path, error);
+  });
+  if (folder.empty())
+    throw input_error("{}: the data folder was not found; expected it beside the program or under $GONIO_HOME", name);
+  return folder;
+}
+
+fs::path data_file(std::string_view name) {
+  fs::path file = beside_the_program(name, [](const fs::path& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+  });
+  if (file.empty())
+    throw input_error("{}: was not found; expected it beside the program, in share/gonio or under $GONIO_HOME", name);
+  return file;
 }
 
 }  // namespace gonio

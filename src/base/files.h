@@ -33,4 +33,7 @@ void make_folder(const std::filesystem::path& folder);
 /// share/gonio, or $GONIO_HOME. Throws InputError when it is not found.
 std::filesystem::path data_folder(std::string_view name);
 
+/// A file made by the build for the program (materials.sqlite): found as data_folder() finds folders.
+std::filesystem::path data_file(std::string_view name);
+
 }  // namespace gonio

@@ -17,6 +17,7 @@ struct Common {
 void add_common(CLI::App& command, Common& common);
 
 void add_materials(CLI::App& app, Common& common);
+void add_materials_import(CLI::App& materials, Common& common);
 void add_materials_kk(CLI::App& materials, Common& common);
 void add_materials_plot(CLI::App& materials, Common& common);
 void add_materials_swatch(CLI::App& materials, Common& common);

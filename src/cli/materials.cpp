@@ -18,9 +18,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json summary(const Entry& entry) {
-  return {{"id", entry.id},           {"kind", entry.kind},
-          {"name", entry.name},       {"range_nm", {entry.range_lo_nm, entry.range_hi_nm}},
-          {"source", entry.citation}, {"licence", entry.licence}};
+  return {{"id", entry.id},
+          {"kind", entry.kind},
+          {"name", entry.name},
+          {"range_nm", {entry.range_lo_nm, entry.range_hi_nm}},
+          {"source", entry.citation},
+          {"licence", entry.licence},
+          {"origin", entry.user ? "user" : "bundled"}};
 }
 
 void print_list(const std::vector<const Entry*>& entries, bool json) {
@@ -33,7 +37,8 @@ void print_list(const std::vector<const Entry*>& entries, bool json) {
   }
   for (const Entry* entry : entries) {
     const std::string range = fmt::format("{:g} to {:g} nm", entry->range_lo_nm, entry->range_hi_nm);
-    std::cout << fmt::format("{:<{}}  {:<19}  {:<18}  {}\n", entry->id, widest, entry->kind, range, entry->name);
+    std::cout << fmt::format("{:<{}}  {:<19}  {:<18}  {}{}\n", entry->id, widest, entry->kind, range, entry->name,
+                             entry->user ? " (user)" : "");
   }
 }
 
@@ -100,6 +105,7 @@ std::string card_text(const Database& database, const Entry& entry) {
                              entry.has_k() ? fmt::format("; k: {} points", entry.wavelength_nm.size()) : ""));
   for (const auto& [key, text] : optional_fields(entry))
     if (!text.empty() || std::string_view(key) != "note") line(key, text);
+  if (entry.user) line("origin", "user database");
   line("confidence", entry.confidence), line("citation", entry.citation), line("licence", entry.licence);
   return card;
 }
@@ -123,26 +129,25 @@ void show(const std::string& id, std::optional<double> at_nm, bool json) {
                      : text + "\nsource: " + entry.citation + "\nlicence: " + entry.licence + "\n");
 }
 
-/// Reads every entry; the findings are one line each. Returns whether there were none.
-bool check(const std::string& folder, bool json) {
-  std::vector<std::string> findings, ids;
+/// Reads every entry of a database; the findings are one line each. Returns whether there were none.
+bool check(const std::string& path, bool json) {
+  std::vector<std::string> findings;
+  std::size_t entries = 0;
   try {
-    const Database database(folder);
-    ids = database.ids();
-    for (const std::string& id : ids) try {
-        database.find(id);
-      } catch (const InputError& error) {
-        findings.emplace_back(error.what());
-      }
-    if (ids.empty()) findings.push_back(fmt::format("{}: no entries; expected <kind>/<id>.txt", folder));
+    std::optional<Database> other;
+    if (!path.empty()) other.emplace(path);
+    const Database& database = other ? *other : Database::bundled();
+    entries = database.ids().size();
+    findings = database.findings();
+    if (entries == 0) findings.push_back(fmt::format("{}: no entries; expected <kind>/<id>.txt", path));
   } catch (const InputError& error) {  // the folder itself, or its aliases
     findings.emplace_back(error.what());
   }
   if (json) {
-    std::cout << Json{{"entries", ids.size()}, {"findings", findings}}.dump(2) << '\n';
+    std::cout << Json{{"entries", entries}, {"findings", findings}}.dump(2) << '\n';
   } else {
     for (const std::string& finding : findings) std::cout << finding << '\n';
-    std::cout << fmt::format("{} entries, {} {}\n", ids.size(), findings.size(),
+    std::cout << fmt::format("{} entries, {} {}\n", entries, findings.size(),
                              findings.size() == 1 ? "finding" : "findings");
   }
   return findings.empty();
@@ -183,11 +188,11 @@ void add_materials(CLI::App& app, Common& common) {
 
   auto* check_all = command->add_subcommand("check", "Read and range-check every entry (exit 1: findings)");
   check_all->footer("Example: gonio materials check my_materials_db");
-  check_all->add_option("folder", arguments->folder, "Another database folder (default: the bundled one)");
-  check_all->callback([&common, arguments] {
-    const std::string folder = arguments->folder.empty() ? data_folder("materials_db").string() : arguments->folder;
-    common.exit_code = check(folder, common.json) ? 0 : 1;
-  });
+  check_all->add_option(
+      "folder", arguments->folder,
+      "Another database: a folder of text entries or a compiled file (default: the bundled and the user's)");
+  check_all->callback([&common, arguments] { common.exit_code = check(arguments->folder, common.json) ? 0 : 1; });
+  add_materials_import(*command, common);
   add_materials_kk(*command, common), add_materials_plot(*command, common), add_materials_swatch(*command, common);
   for (auto* subcommand : {list, search, show_card, check_all}) add_common(*subcommand, common);
 }

@@ -22,6 +22,7 @@ struct Entry {
   std::vector<std::string> column_names;
   std::vector<std::vector<double>> columns;  ///< columns[c][row]; n of a formula has none
   std::string file;                          ///< where it was read
+  bool user = false;                         ///< of the user's own database, not bundled
 
   bool has_k() const;
   /// Column c at a wavelength: linear between points, or the formula. InputError outside the entry's range (never
@@ -31,9 +32,10 @@ struct Entry {
 
 class Database {
  public:
-  /// The bundled database, read lazily from materials_db.
+  /// The compiled materials_db (materials.sqlite) and the user's own database beside it, entries read when asked for.
   static const Database& bundled();
-  explicit Database(std::string folder);
+  /// A compiled database, or a folder of text entries like materials_db (broken entries throw when asked for).
+  explicit Database(const std::string& path);
   ~Database();
 
   /// By id or alias; InputError for an unknown one, naming near ones.
@@ -45,13 +47,17 @@ class Database {
   std::vector<std::string> ids() const;
   /// The aliases of a full id.
   std::vector<std::string> aliases_of(std::string_view id) const;
-  /// Every entry, by id.
+  /// Every entry that can be read, by id.
   std::vector<const Entry*> all() const;
-  /// Entries whose id, alias, name, kind or citation has every word of the query (case-insensitive).
+  /// Entries whose id, alias, name, kind or citation has words that begin with every word of the query (without regard
+  /// to case and accents), best first.
   std::vector<const Entry*> search(std::string_view words) const;
+  /// What is wrong with it, one line each: every entry is read and checked.
+  std::vector<std::string> findings() const;
 
  private:
   struct State;
+  explicit Database(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

@@ -157,4 +157,28 @@ void check_entry(const Entry& entry) {
   if (!entry.formula.empty() && !entry.wavelength_nm.empty()) check_k_table(entry);
 }
 
+void check_whole_entry(const Entry& entry) {
+  check_header(entry);
+  const std::size_t rows = entry.wavelength_nm.size(), first = entry.formula.empty() ? 0 : 1;
+  for (std::size_t row = 0; row < rows; ++row)
+    if (!(entry.wavelength_nm[row] > (row == 0 ? 0 : entry.wavelength_nm[row - 1])) ||
+        !std::isfinite(entry.wavelength_nm[row]))
+      throw input_error("{}: wavelength {} nm in row {}; expected them positive and increasing", entry.id,
+                        entry.wavelength_nm[row], row + 1);
+  const std::vector<std::string>& known = columns_of_kind(entry.kind);
+  if (entry.column_names.size() > known.size() ||
+      !std::equal(entry.column_names.begin(), entry.column_names.end(), known.begin()))
+    throw input_error("{}: the columns are '{}'; expected {}", entry.id, fmt::join(entry.column_names, ","),
+                      fmt::join(known, ","));
+  for (std::size_t c = first; c < entry.columns.size(); ++c)
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double value = entry.columns[c][row];
+      if (std::isnan(value) && entry.column_names[c] == "k") continue;
+      if (!std::isfinite(value))
+        throw input_error("{}: {} in row {} is {}; expected a number", entry.id, entry.column_names[c], row + 1, value);
+      check_value(entry.column_names[c], value, entry.id, static_cast<int>(row + 1));
+    }
+  check_entry(entry);
+}
+
 }  // namespace gonio

@@ -18,4 +18,7 @@ void check_header(const Entry& entry);
 /// The table or formula agrees with the header's range, and a formula has a positive index all over it.
 void check_entry(const Entry& entry);
 
+/// All of the above for an entry that was not just read from text: header, increasing wavelengths, every value.
+void check_whole_entry(const Entry& entry);
+
 }  // namespace gonio

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <thread>
 
@@ -133,6 +134,10 @@ TEST_CASE("Search finds every word, whatever its case", "[materials]") {
   CHECK(gold[0]->id == "Au_Johnson");
   CHECK(Database::bundled().search("optical-constants malitson sapphire").size() == 2);  // both rays
   CHECK(Database::bundled().search("no such word").empty());
+  CHECK(Database::bundled().search("rakic aluminium drude OR").empty());
+  CHECK_FALSE(Database::bundled().search("rakic alumin").empty());  // Rakić; words may be cut short
+  CHECK(Database::bundled().search("\" * ( NEAR").empty());         // signs of the query language mean nothing
+  CHECK(Database::bundled().search(" ").empty());
 }
 
 TEST_CASE("Surface materials: perfect, from reflectance, and kinds that are none", "[materials]") {
@@ -168,6 +173,33 @@ TEST_CASE("A database of one's own: ids are file names, noise above 1 is a perfe
   write_file(scratch.path / "aliases.txt", "grey: gray_me\n");
   CHECK_THROWS_WITH(Database(scratch.path.string()), Catch::Contains("aliases.txt:1: grey points to gray_me"));
   CHECK_THROWS_AS(Database((scratch.path / "nowhere").string()), InputError);
+  write_file(scratch.path / "text.sqlite", "no database at all, but long enough to look like a file of some kind");
+  CHECK_THROWS_WITH(Database((scratch.path / "text.sqlite").string()), Catch::Contains("text.sqlite: "));
+}
+
+TEST_CASE("The compiled file holds what the text says, to the bit", "[materials]") {
+  const Database text(std::string(GONIO_SOURCE_DIR) + "/materials_db");
+  const Database& compiled = Database::bundled();
+  CHECK(text.findings().empty());
+  std::vector<std::string> bundled_ids;
+  for (const std::string& id : compiled.ids())
+    if (!compiled.find(id).user) bundled_ids.push_back(id);
+  REQUIRE(text.ids() == bundled_ids);
+  const auto same = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+  };
+  for (const std::string& id : text.ids()) {
+    INFO(id);
+    const Entry &a = text.find(id), &b = compiled.find(id);
+    CHECK((a.name == b.name && a.kind == b.kind && a.unit == b.unit && a.citation == b.citation && a.note == b.note));
+    CHECK((a.range_lo_nm == b.range_lo_nm && a.range_hi_nm == b.range_hi_nm && a.formula == b.formula));
+    CHECK(a.column_names == b.column_names);
+    CHECK(same(a.coefficients, b.coefficients));
+    CHECK(same(a.wavelength_nm, b.wavelength_nm));
+    REQUIRE(a.columns.size() == b.columns.size());
+    for (std::size_t c = 0; c < a.columns.size(); ++c) CHECK(same(a.columns[c], b.columns[c]));
+    CHECK(text.aliases_of(id) == compiled.aliases_of(id));
+  }
 }
 
 TEST_CASE("Entries are read once, from any number of threads", "[materials]") {
