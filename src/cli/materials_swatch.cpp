@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kGamutMargin = 5e-4;  // of linear sRGB: less than half a step of 8 bits near white
-constexpr int kCellWidth = 120, kCellHeight = 60, kGap = 6, kTop = 30, kFoot = 24, kRowsOfABlock = 20;
+constexpr int kCellWidth = 120, kCellHeight = 60, kGap = 6, kTop = 30, kFoot = 24;
 
 struct SwatchArguments {
   std::vector<std::string> ids, lights{"D65"};
@@ -60,9 +60,12 @@ class Sheet {
  public:
   Sheet(std::size_t materials, std::size_t lights, std::size_t longest_name)
       : label_(20 + 7 * static_cast<int>(longest_name)),
-        block_(label_ + static_cast<int>(lights) * (kCellWidth + kGap) + kGap),
-        rows_(static_cast<int>(std::min<std::size_t>(materials, kRowsOfABlock))),
-        blocks_(static_cast<int>((materials + kRowsOfABlock - 1) / kRowsOfABlock)) {}
+        block_(label_ + static_cast<int>(lights) * (kCellWidth + kGap) + kGap) {
+    // About as high as wide.
+    const double count = static_cast<double>(materials);
+    rows_ = static_cast<int>(std::min(count, std::ceil(std::sqrt(count * block_ / (kCellHeight + kGap)))));
+    blocks_ = static_cast<int>(std::ceil(count / rows_));
+  }
 
   int width() const { return blocks_ * block_; }
   int height() const { return kTop + rows_ * (kCellHeight + kGap) + kFoot; }
@@ -89,9 +92,9 @@ class Sheet {
   }
 
  private:
-  int left(std::size_t row) const { return static_cast<int>(row) / kRowsOfABlock * block_; }
+  int left(std::size_t row) const { return static_cast<int>(row) / rows_ * block_; }
   int bottom(std::size_t row) const {
-    return height() - kTop - (static_cast<int>(row) % kRowsOfABlock + 1) * (kCellHeight + kGap) + kGap;
+    return height() - kTop - (static_cast<int>(row) % rows_ + 1) * (kCellHeight + kGap) + kGap;
   }
   void text(int x, int y, const std::string& words) {
     script_ += fmt::format("set label '{}' at {},{} left font ',10'\n", gnuplot_text(words), x, y);
