@@ -1,0 +1,32 @@
+#include <iostream>
+#include <memory>
+
+#include "assess/kramers_kronig_charts.h"
+#include "base/error.h"
+#include "cli/commands.h"
+
+namespace gonio::cli {
+
+void add_assess_stability(CLI::App& assess, Common& common) {
+  auto* command = assess.add_subcommand(
+      "stability",
+      "kramers-kronig: n, k from reflectance on cut bands, against metals whose n, k are known, and how wide an "
+      "interval is honest");
+  command->footer("Example: gonio assess stability kramers-kronig --out out/kramers-kronig");
+  add_common(*command, common);
+  struct Arguments {
+    std::string what, out;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("what", arguments->what, "kramers-kronig")->required();
+  command->add_option("-o,--out", arguments->out, "Folder for CSV tables, SVG plots and README.md (out/assess/WHAT)");
+  command->callback([arguments] {
+    if (arguments->what != "kramers-kronig")
+      throw input_error("gonio assess stability: no map {}; expected kramers-kronig", arguments->what);
+    const std::string out = arguments->out.empty() ? "out/assess/" + arguments->what : arguments->out;
+    write_kramers_kronig_charts(out);
+    std::cout << out << '\n';
+  });
+}
+
+}  // namespace gonio::cli
