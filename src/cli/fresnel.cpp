@@ -7,6 +7,7 @@
 #include "brdf/directions.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "optics/absorption.h"
 
 namespace gonio::cli {
 namespace {
@@ -15,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 struct FresnelArguments {
   std::string id, angles = "0,15,30,45,60,75,80,85,89,90";
-  std::optional<double> n, k, at_nm, from;
+  std::optional<double> n, k, at_nm, from, conductivity, permittivity;
 };
 
 /// n + ik relative to the incident medium, and where it comes from.
@@ -27,7 +28,24 @@ struct Index {
 /// Up to here a medium counts as transparent (glasses have k of 1e-9 to 1e-5): T = 1 - R enters it.
 constexpr double kTransparentK = 1e-4;
 
+/// Of a medium known by its relative permittivity and its conductivity in S/m.
+Index index_of_conductor(const FresnelArguments& arguments) {
+  if (!arguments.id.empty() || arguments.n || arguments.k || arguments.from)
+    throw input_error("--conductivity: given with an index; expected it with --at and --permittivity only");
+  if (!arguments.at_nm) throw input_error("--conductivity: no wavelength; expected --at NM");
+  const double permittivity = arguments.permittivity.value_or(1);
+  if (!(*arguments.conductivity > 0 && *arguments.conductivity < 1e12))
+    throw input_error("--conductivity {}: out of range; expected more than 0 S/m", *arguments.conductivity);
+  if (!(*arguments.at_nm > 0 && *arguments.at_nm < 1e15) || !(std::abs(permittivity) < 1e6))
+    throw input_error("--at {}, --permittivity {}: out of range; expected a wavelength above 0 and at most 1e6",
+                      *arguments.at_nm, permittivity);
+  const ComplexIndex<double> index = index_of_conductivity(permittivity, *arguments.conductivity, *arguments.at_nm);
+  return {index.n, index.k, "", ""};
+}
+
 Index index_from(const FresnelArguments& arguments) {
+  if (arguments.conductivity) return index_of_conductor(arguments);
+  if (arguments.permittivity) throw input_error("--permittivity: given without --conductivity; expected both");
   if (arguments.id.empty()) {
     if (!arguments.n) throw input_error("gonio fresnel: no material; expected an ID with --at, or --n (and --k)");
     if (arguments.at_nm) throw input_error("--at: given with --n; expected it only with an ID");
@@ -53,7 +71,8 @@ Index index_from(const FresnelArguments& arguments) {
 
 void add_fresnel(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("fresnel", "Fresnel reflectances R_s, R_p, R (and T where k is below 1e-4)");
-  command->footer("Example: gonio fresnel Au --at 550 --angles 0,30,60,85\n         gonio fresnel --n 1.5 --angles 56.31");
+  command->footer("Example: gonio fresnel Au --at 550 --angles 0,30,60,85\n         gonio fresnel --n 1.5 --angles 56.31\n"
+                  "         gonio fresnel --conductivity 5.96e7 --at 100000");
   add_common(*command, common);
   auto arguments = std::make_shared<FresnelArguments>();
   command->add_option("id", arguments->id, "Database id of the material");
@@ -61,6 +80,9 @@ void add_fresnel(CLI::App& app, Common& common) {
   command->add_option("--k", arguments->k, "Extinction coefficient relative to the incident medium");
   command->add_option("--from", arguments->from, "Refractive index of the incident medium, for an ID (default 1)");
   command->add_option("--at", arguments->at_nm, "Wavelength in nm, for an ID");
+  command->add_option("--conductivity", arguments->conductivity,
+                      "Conductivity in S/m, with --at: n and k of that medium instead");
+  command->add_option("--permittivity", arguments->permittivity, "Its relative permittivity (default 1)");
   command->add_option("--angles", arguments->angles, "Angles of incidence in degrees, 0 to 90")->capture_default_str();
   command->callback([&common, arguments] {
     const std::vector<double> angles = number_list(arguments->angles, "--angles", 0, 90);

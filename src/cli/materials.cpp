@@ -51,8 +51,10 @@ std::vector<std::pair<const char*, std::string>> optional_fields(const Entry& en
           {"note", entry.note}};
 }
 
-/// What the entry says at a wavelength, one pair a column; n always with k (0 where the medium is transparent).
-std::vector<std::pair<std::string, double>> values_at(const Database& database, const Entry& entry, double nm) {
+/// What the entry says at a wavelength, one pair a column; n always with k (0 where the medium is transparent), and
+/// with the share of light left after a path inside.
+std::vector<std::pair<std::string, double>> values_at(const Database& database, const Entry& entry, double nm,
+                                                      std::optional<double> path_mm) {
   std::vector<std::pair<std::string, double>> values;
   if (entry.kind == "optical-constants") {
     const Interface<double> surface = SurfaceMaterial(entry.id, database).at(nm);
@@ -61,8 +63,10 @@ std::vector<std::pair<std::string, double>> values_at(const Database& database, 
       values.emplace_back("field_depth_nm", field_depth(surface.k, nm));
       values.emplace_back("intensity_depth_nm", intensity_depth(surface.k, nm));
     }
+    if (path_mm) values.emplace_back("internal_transmittance", internal_transmittance(surface.k, *path_mm * 1e6, nm));
     return values;
   }
+  if (path_mm) throw input_error("--path: {} is of kind {}; expected optical-constants", entry.id, entry.kind);
   for (std::size_t c = 0; c < entry.columns.size(); ++c) values.emplace_back(entry.column_names[c], entry.at(nm, c));
   if (entry.kind == "reflectance") values.emplace_back("R_normal", entry.at(nm));
   return values;
@@ -110,17 +114,18 @@ std::string card_text(const Database& database, const Entry& entry) {
   return card;
 }
 
-void show(const std::string& id, std::optional<double> at_nm, bool json) {
+void show(const std::string& id, std::optional<double> at_nm, std::optional<double> path_mm, bool json) {
   const Database& database = Database::bundled();
   const Entry& entry = database.find(id);
   if (!at_nm) {
+    if (path_mm) throw input_error("--path: given without --at; expected --at NM");
     std::cout << (json ? card_json(database, entry).dump(2) + "\n" : card_text(database, entry));
     return;
   }
   Json out{{"id", entry.id}, {"wavelength_nm", *at_nm}};
   std::string text = fmt::format("{} at {:g} nm:", entry.id, *at_nm);
   const char* separator = " ";
-  for (const auto& [name, value] : values_at(database, entry, *at_nm)) {
+  for (const auto& [name, value] : values_at(database, entry, *at_nm, path_mm)) {
     out[name] = value;
     text += fmt::format("{}{} = {:.6g}", std::exchange(separator, ", "), name, value);
   }
@@ -162,7 +167,7 @@ void add_materials(CLI::App& app, Common& common) {
   struct Arguments {
     std::string id, folder;
     std::vector<std::string> words;
-    std::optional<double> at_nm;
+    std::optional<double> at_nm, path_mm;
   };
   auto arguments = std::make_shared<Arguments>();
 
@@ -181,10 +186,13 @@ void add_materials(CLI::App& app, Common& common) {
   });
 
   auto* show_card = command->add_subcommand("show", "One entry: its card, or with --at its values at a wavelength");
-  show_card->footer("Example: gonio materials show Au --at 550 --json");
+  show_card->footer(
+      "Example: gonio materials show Au --at 550 --json\n         gonio materials show BK7 --at 400 --path 10");
   show_card->add_option("id", arguments->id, "Id or alias")->required();
   show_card->add_option("--at", arguments->at_nm, "Wavelength in nm");
-  show_card->callback([&common, arguments] { show(arguments->id, arguments->at_nm, common.json); });
+  show_card->add_option("--path", arguments->path_mm, "With --at: the share of light left after so many mm inside")
+      ->check(CLI::NonNegativeNumber);
+  show_card->callback([&common, arguments] { show(arguments->id, arguments->at_nm, arguments->path_mm, common.json); });
 
   auto* check_all = command->add_subcommand("check", "Read and range-check every entry (exit 1: findings)");
   check_all->footer("Example: gonio materials check my_materials_db");

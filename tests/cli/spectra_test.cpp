@@ -45,6 +45,22 @@ TEST_CASE("materials show --at: depths of what absorbs", "[cli]") {
   CHECK_FALSE(json_of({"materials", "show", "SiO2_Malitson", "--at", "550"}).contains("field_depth_nm"));
 }
 
+TEST_CASE("materials show --path and fresnel --conductivity", "[cli]") {
+  const Json water = json_of({"materials", "show", "H2O_Hale", "--at", "700", "--path", "1000"});
+  const double k = water["k"].get<double>();
+  CHECK(water["internal_transmittance"].get<double>() ==
+        Approx(std::exp(-4 * std::acos(-1.0) * k * 1e9 / 700)).epsilon(1e-12));
+  CHECK(water["internal_transmittance"].get<double>() ==
+        Approx(0.55).margin(0.1));  // a metre of water takes half the red
+  const Json copper = json_of({"fresnel", "--conductivity", "5.96e7", "--at", "1e6", "--angles", "0"});
+  CHECK(1 - copper["rows"][0]["R"].get<double>() ==
+        Approx(2 * std::sqrt(2 * 8.8541878128e-12 * 1.8836516e12 / 5.96e7)).epsilon(2e-3));
+  const Scratch scratch;
+  check_refused(scratch, {"fresnel", "--conductivity", "5.96e7"}, "expected --at NM");
+  check_refused(scratch, {"fresnel", "Au", "--conductivity", "5.96e7", "--at", "550"}, "given with an index");
+  check_refused(scratch, {"materials", "show", "D65", "--at", "550", "--path", "1"}, "expected optical-constants");
+}
+
 TEST_CASE("color: a user's curves as the observer", "[cli]") {
   const Scratch scratch;
   const std::string film = scratch.file("film.csv", "wavelength_nm,red,green\n600,0,0\n640,1,0\n680,0,0\n");
