@@ -85,7 +85,8 @@ struct Database::State {
 
   std::vector<Layer> layers;
   std::vector<std::string> unreadable;  ///< user databases that are none
-  std::map<std::string, std::unique_ptr<Entry>, std::less<>> entries;
+  std::map<std::string, std::unique_ptr<Entry>, std::less<>> entries;  ///< read, by id
+  std::map<std::string, const Entry*, std::less<>> found;              ///< by the ids and aliases asked for
   std::mutex mutex;
 };
 
@@ -130,9 +131,15 @@ std::string Database::full_id(std::string_view id_or_alias) const {
 }
 
 const Entry& Database::find(std::string_view id_or_alias) const {
+  {
+    const std::scoped_lock lock(state_->mutex);
+    if (const auto known = state_->found.find(id_or_alias); known != state_->found.end()) return *known->second;
+  }
   const std::string id = full_id(id_or_alias);
   const std::scoped_lock lock(state_->mutex);
-  return state_->entry_of(*state_->place_of(id).first, id);
+  const Entry& entry = state_->entry_of(*state_->place_of(id).first, id);
+  state_->found.emplace(id_or_alias, &entry);
+  return entry;
 }
 
 std::vector<std::string> Database::ids() const {

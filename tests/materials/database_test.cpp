@@ -177,6 +177,10 @@ TEST_CASE("A database of one's own: ids are file names, noise above 1 is a perfe
   CHECK_THROWS_WITH(Database((scratch.path / "text.sqlite").string()), Catch::Contains("text.sqlite: "));
 }
 
+TEST_CASE("A data file that is not there is named", "[materials]") {
+  CHECK_THROWS_WITH(data_file("no-materials.sqlite"), Catch::Contains("no-materials.sqlite: was not found; expected"));
+}
+
 TEST_CASE("The compiled file holds what the text says, to the bit", "[materials]") {
   const Database text(std::string(GONIO_SOURCE_DIR) + "/materials_db");
   const Database& compiled = Database::bundled();
