@@ -101,7 +101,7 @@ TEST_CASE("Lambert's fit is the mean of the logarithms, its error the textbook's
   CHECK(result.all.rms_log10 == Approx(std::sqrt(squares / count) / std::log(10.0)).epsilon(1e-9));
 }
 
-TEST_CASE("what the data cannot tell apart is named", "[fit]") {
+TEST_CASE("what the data cannot tell apart is named", "[fit][slow]") {
   const ModelSpec spec = spec_of("beckmann-kirchhoff");
   const Interface<double> perfect = perfect_interface<double>();
   FitRequest request = request_of("beckmann-kirchhoff", 4);

@@ -71,7 +71,7 @@ Recovery recover(const ModelSpec& spec, Metric metric, int truths, int starts, c
 
 }  // namespace
 
-TEST_CASE("noise-free data give back their parameters from nearly every start", "[fit][recovery]") {
+TEST_CASE("noise-free data give back their parameters from nearly every start", "[fit][recovery][slow]") {
   struct Case {
     const char* model;
     Metric metric;
@@ -125,7 +125,7 @@ TEST_CASE("a diffuse part of exactly zero is found, and held parameters stay", "
   CHECK(held.value("m") == Approx(0.3).epsilon(1e-6));
 }
 
-TEST_CASE("95 % intervals hold the truth in 90 to 99 % of noisy repeats", "[fit][recovery]") {
+TEST_CASE("95 % intervals hold the truth in 90 to 99 % of noisy repeats", "[fit][recovery][slow]") {
   // 200 repeats at 95 %: outside [180, 198] by chance with probability 0.003 for each parameter; the seeds are fixed.
   constexpr int kRepeats = 200;
   const ModelSpec spec = spec_of("torrance-sparrow");
