@@ -67,6 +67,7 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
     if (separator != ' ' || !cell.empty()) cells.emplace_back(cell);
     at = end + 1;
   }
+  if (cells.empty()) cells.emplace_back();  // a line of quotes
   return cells;
 }
 

@@ -115,7 +115,7 @@ Formula read_formula(const YAML::Node& block, const std::string& number, const s
   Formula formula{std::string(kDispersionNames[static_cast<std::size_t>(number[0] - '1')]), {}, 0, 0};
   for (const std::string& word : words_of(text_of(block, "coefficients", file)))
     formula.coefficients.push_back(scaled_number(word, 0, "a coefficient", file, line_of(block)));
-  const std::string range = text_of(block, block["wavelength_range"] ? "wavelength_range" : "range", file);
+  const std::string range = plain(text_of(block, block["wavelength_range"] ? "wavelength_range" : "range", file));
   const std::vector<std::string> ends = words_of(range);
   if (ends.size() != 2)
     throw input_error("{}:{}: wavelength_range is '{}'; expected two wavelengths in um", file, line_of(block), range);
@@ -166,7 +166,7 @@ Blocks read_blocks(const YAML::Node& data, const std::string& file) {
   Blocks blocks;
   for (const YAML::Node& block : data) {
     check_map(block, file, "an item of DATA");
-    const std::string type = text_of(block, "type", file);
+    const std::string type = plain(text_of(block, "type", file));
     if (type.starts_with("formula ") && !blocks.formula)
       blocks.formula = read_formula(block, type.substr(8), file);
     else if (type == "tabulated nk" && !blocks.nk)
