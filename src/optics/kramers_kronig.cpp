@@ -102,19 +102,13 @@ double KramersKronig::lo_nm() const { return 1 / band_.frequency.back(); }
 double KramersKronig::hi_nm() const { return 1 / band_.frequency.front(); }
 
 KramersKronigIndex KramersKronig::at(double wavelength_nm) const {
-  const double first = band_.frequency.front(), last = band_.frequency.back();
-  const double w = std::clamp(1 / wavelength_nm, first, last);
-  const double assumed = assumed_phase(extended_, w);
-  const double interpolation = std::abs(assumed - assumed_phase(even_, w)) + std::abs(assumed - assumed_phase(odd_, w));
-  const Interval outside = outside_phase(w);
-  const double inside = band_phase(band_, w);
+  const double w = std::clamp(1 / wavelength_nm, band_.frequency.front(), band_.frequency.back());
+  const Interval possible = possible_phase(w);
 
   KramersKronigIndex result;
   result.reflectance = std::exp(2 * log_amplitude_at(band_, w));
-  const auto allowed = [](double phase) { return std::clamp(phase, 0.0, kPi<double>); };
-  result.phase = allowed(assumed);
-  result.phase_lo = allowed(inside + outside.lo - interpolation);
-  result.phase_hi = allowed(inside + outside.hi + interpolation);
+  result.phase_lo = possible.lo, result.phase_hi = possible.hi;
+  result.phase = std::clamp(assumed_phase(extended_, w), possible.lo, possible.hi);
   const IndexOfReflection index = index_of_reflection(result.reflectance, result.phase);
   result.n = index.n, result.k = index.k;
   result.n_lo = result.k_lo = std::numeric_limits<double>::infinity();
@@ -161,17 +155,39 @@ double KramersKronig::assumed_phase(const Curve& curve, double frequency) const 
          decay_exponent_ / (2 * kPi<double>)*tail_integral(curve.frequency.back() / frequency);
 }
 
-KramersKronig::Interval KramersKronig::outside_phase(double frequency) const {
+KramersKronig::Outside KramersKronig::outside(double frequency) const {
   const double first = band_.frequency.front(), last = band_.frequency.back();
+  return {std::log((frequency + first) / (frequency - first)) / kPi<double>,  // infinite at the ends, where R may jump
+          std::log((last + frequency) / (last - frequency)) / kPi<double>,
+          2 / kPi<double> * tail_integral(last / frequency)};
+}
+
+double KramersKronig::interpolation_error(double frequency) const {
+  const double phase = band_phase(extended_, frequency);
+  return std::abs(phase - band_phase(even_, frequency)) + std::abs(phase - band_phase(odd_, frequency));
+}
+
+KramersKronig::Interval KramersKronig::possible_phase(double frequency) const {
+  double inside = band_phase(band_, frequency), error = interpolation_error(frequency);
+  Outside reach = outside(frequency);
+  if (assumption_.known) {
+    const KnownIndex& known = *assumption_.known;
+    const double w = 1 / known.wavelength_nm, share = frequency / w, phase = phase_of_index(known.n, known.k);
+    error += share * interpolation_error(w);
+    if (std::abs(share - 1) < 1e-12) return {std::max(0.0, phase - error), std::min(kPi<double>, phase + error)};
+    inside += share * (phase - band_phase(band_, w));
+    const Outside there = outside(w);
+    reach = {reach.low - share * there.low, reach.high - share * there.high, reach.fall - share * there.fall};
+  }
   const double at_first = band_.log_amplitude.front(), at_last = band_.log_amplitude.back();
   const double least_first = std::min(at_first, 0.5 * std::log(assumption_.least_longer));
   const double least_last = std::min(at_last, 0.5 * std::log(assumption_.least_shorter));
-  const double low = std::log((frequency + first) / (frequency - first)) / kPi<double>;  // infinite at the ends,
-  const double high = std::log((last + frequency) / (last - frequency)) / kPi<double>;   // where R may jump
   const auto times = [](double a, double b) { return a == 0 ? 0 : a * b; };
-  return {
-      times(least_first - at_first, low) + times(at_last, high),
-      times(-at_first, low) + times(at_last - least_last, high) + 2 / kPi<double> * tail_integral(last / frequency)};
+  const auto [low_lo, low_hi] = std::minmax({times(least_first - at_first, reach.low), times(-at_first, reach.low)});
+  const auto [high_lo, high_hi] =
+      std::minmax({times(at_last, reach.high), times(at_last - least_last, reach.high) + reach.fall});
+  const auto allowed = [](double phase) { return std::clamp(phase, 0.0, kPi<double>); };
+  return {allowed(inside + low_lo + high_lo - error), allowed(inside + low_hi + high_hi + error)};
 }
 
 }  // namespace gonio

@@ -11,7 +11,9 @@
 // Outside the band R is unknown; it is assumed (Assumption) and the result says what that costs: with R between
 // `least_longer` and 1 at longer wavelengths, between `least_shorter`·(λ/λ_min)^4 and 1 at shorter ones, φ lies
 // between phase_lo and phase_hi. What leaving out every second point changes (of the phase, and of R between points) is
-// added; n_lo … k_hi are the extremes over all that. Where it is all of [0, π], the transform adds nothing to R.
+// added; n_lo … k_hi are the extremes over all that. An index known at one wavelength (subtractive Kramers-Kronig; R.
+// K. Ahrenkiel, J. Opt. Soc. Am. 61, 1651 (1971)) narrows the interval and chooses the decay. Where it is all of [0,
+// π], the transform adds nothing to R.
 #include <optional>
 #include <vector>
 
@@ -72,8 +74,16 @@ class KramersKronig {
   /// And with the assumed decay at high frequencies.
   double assumed_phase(const Curve& curve, double frequency) const;
   double exponent_through(const KnownIndex& known) const;
-  /// What R outside the band can add to band_phase of the data.
-  Interval outside_phase(double frequency) const;
+  /// What ln √R outside the band weighs in the phase: one unit of it at lower frequencies, one at higher ones, and its
+  /// fall by 2·ln ω there. With a known phase, what is left of them once that is subtracted (in proportion to ω: the
+  /// kernel keeps its sign, so that the extremes of R still give the extremes of the phase).
+  struct Outside {
+    double low, high, fall;
+  };
+  Outside outside(double frequency) const;
+  double interpolation_error(double frequency) const;
+  /// Between what bounds the phase lies for every R allowed outside the band.
+  Interval possible_phase(double frequency) const;
 
   KramersKronigAssumption assumption_;
   double decay_exponent_;
