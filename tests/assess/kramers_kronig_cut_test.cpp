@@ -10,7 +10,7 @@ using namespace gonio;
 TEST_CASE(
     "Eleven closed-form metals: exact over the whole band, off by tens of per cent when cut, never outside the "
     "interval",
-    "[assess]") {
+    "[assess][slow]") {
   std::map<std::string, double> mean, worst;
   for (const CutRow& row : drude_lorentz_cuts()) {
     INFO(row.metal << " " << row.band.name);
@@ -22,7 +22,7 @@ TEST_CASE(
   CHECK(mean["360-830 & 589.3"] < 0.4 * mean["360-830"]);
 }
 
-TEST_CASE("Tabulated metals fail alike and stay within the interval", "[assess]") {
+TEST_CASE("Tabulated metals fail alike and stay within the interval", "[assess][slow]") {
   for (const CutRow& row : tabulated_cuts()) {
     INFO(row.metal << " " << row.band.name);
     CHECK(row.share_held == Approx(1).epsilon(1e-12));
@@ -30,7 +30,7 @@ TEST_CASE("Tabulated metals fail alike and stay within the interval", "[assess]"
   }
 }
 
-TEST_CASE("The decay assumed by default is the one of least error", "[assess]") {
+TEST_CASE("The decay assumed by default is the one of least error", "[assess][slow]") {
   std::map<std::string, std::pair<double, double>> best;  // error, exponent
   for (const DecayRow& row : decay_exponents())
     if (row.band != "200-2000" && (!best.contains(row.band) || row.mean_error < best[row.band].first))
