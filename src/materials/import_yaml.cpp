@@ -38,12 +38,31 @@ std::string text_of(const YAML::Node& map, const char* key, const std::string& f
   return node.Scalar();
 }
 
-/// Text as one line, without HTML tags.
-std::string plain(const std::string& html) {
+/// Of `[text](address)` the text; without signs of emphasis.
+std::string without_markdown(std::string_view marked) {
+  std::string text;
+  for (std::size_t at = 0; at < marked.size(); ++at) {
+    const std::size_t open = text.rfind('[');
+    if (marked.substr(at, 2) == "](" && open != std::string::npos) {
+      text.erase(open, 1);
+      int depth = 1;
+      for (at += 2; at < marked.size() && depth > 0; ++at) depth += (marked[at] == '(') - (marked[at] == ')');
+      --at;  // on the bracket that closes
+    } else if (marked[at] != '*') {
+      text += marked[at];
+    }
+  }
+  return text;
+}
+
+/// Text as one line, without Markdown and HTML tags.
+std::string plain(const std::string& marked) {
+  const std::string source = without_markdown(marked);
   std::string text;
   bool tag = false;
-  for (const char c : html) {
-    if (c == '<') tag = true;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const char c = source[i], next = i + 1 < source.size() ? source[i + 1] : ' ';
+    if (c == '<' && (next == '/' || (next >= 'a' && next <= 'z'))) tag = true;  // <111> is a direction
     if (!tag) text += c == '\n' || c == '\r' || c == '\t' ? ' ' : c;
     if (c == '>') tag = false;
   }
@@ -53,11 +72,18 @@ std::string plain(const std::string& html) {
   return std::string(trimmed(line));
 }
 
+/// The first DOI; it may hold brackets of its own, but not one that closes a link.
 std::string doi_in(const std::string& references) {
   const std::size_t at = references.find("doi.org/");
   if (at == std::string::npos) return "";
-  const std::size_t begin = at + 8, end = references.find_first_of("\"'> \n", begin);
-  return references.substr(begin, end - begin);
+  int depth = 0;
+  std::string doi;
+  for (std::size_t i = at + 8; i < references.size(); ++i) {
+    depth += (references[i] == '(') - (references[i] == ')');
+    if (depth < 0 || std::string_view("\"'> \n\t").find(references[i]) != std::string_view::npos) break;
+    doi += references[i];
+  }
+  return doi;
 }
 
 std::vector<std::pair<std::string_view, int>> lines_of(std::string_view text, int first_line) {

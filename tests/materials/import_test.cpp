@@ -50,6 +50,19 @@ TEST_CASE("A record with n and k: wavelengths in um become nm exactly", "[materi
   CHECK(gold.at(191.6, 1) == 1.203);
 }
 
+TEST_CASE("References in Markdown, a DOI with brackets, conditions", "[materials]") {
+  const Entry entry = import(
+      "# a comment\nREFERENCES: |\n    A. Nobody and B. Else.\n    Title [of a kind].\n"
+      "    [*J. Opt.* **40**, 17 (2000)](https://doi.org/10.1016/S0042-6989(00)00021-3)\n"
+      "COMMENTS: cut along <111>, k < 1e-6\nCONDITIONS:\n  temperature: 293\nDATA:\n  - type: tabulated n\n    data: "
+      "|\n        0.4 1.5\n        0.7 1.4\n");
+  CHECK(entry.citation == "A. Nobody and B. Else. Title [of a kind]. J. Opt. 40, 17 (2000)");
+  CHECK(entry.doi == "10.1016/S0042-6989(00)00021-3");
+  CHECK(entry.note == "cut along <111>, k < 1e-6");
+  CHECK(entry.temperature == "293 K");
+  CHECK_FALSE(entry.has_k());
+}
+
 TEST_CASE("A record of a formula keeps the formula; k may follow in a table", "[materials]") {
   const std::string bk7 =
       "  - type: formula 2\n    wavelength_range: 0.3 2.5\n    coefficients: 0 1.03961212 0.00600069867 "
