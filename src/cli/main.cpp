@@ -43,7 +43,9 @@ int run(int argc, char** argv) {
   add_fit(app, common);
   add_table(app, common);
   add_render(app, common);
+  add_assess(app, common);
   add_validate(app, common);
+  add_report(app, common);
 
   std::unique_ptr<tbb::global_control> limit;
   app.parse_complete_callback([&] {
