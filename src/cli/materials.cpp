@@ -63,6 +63,8 @@ std::vector<std::pair<std::string, double>> values_at(const Database& database, 
       values.emplace_back("field_depth_nm", field_depth(surface.k, nm));
       values.emplace_back("intensity_depth_nm", intensity_depth(surface.k, nm));
     }
+    if (path_mm && !(*path_mm >= 0 && *path_mm < 1e12))
+      throw input_error("--path {}: out of range; expected 0 mm or more", *path_mm);
     if (path_mm) values.emplace_back("internal_transmittance", internal_transmittance(surface.k, *path_mm * 1e6, nm));
     return values;
   }
@@ -190,8 +192,7 @@ void add_materials(CLI::App& app, Common& common) {
       "Example: gonio materials show Au --at 550 --json\n         gonio materials show BK7 --at 400 --path 10");
   show_card->add_option("id", arguments->id, "Id or alias")->required();
   show_card->add_option("--at", arguments->at_nm, "Wavelength in nm");
-  show_card->add_option("--path", arguments->path_mm, "With --at: the share of light left after so many mm inside")
-      ->check(CLI::NonNegativeNumber);
+  show_card->add_option("--path", arguments->path_mm, "With --at: the share of light left after so many mm inside");
   show_card->callback([&common, arguments] { show(arguments->id, arguments->at_nm, arguments->path_mm, common.json); });
 
   auto* check_all = command->add_subcommand("check", "Read and range-check every entry (exit 1: findings)");

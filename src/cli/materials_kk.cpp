@@ -46,6 +46,9 @@ double known_r0(const SurfaceMaterial& material, double nm) {
 
 /// Reflectance at normal incidence of an id, or the column `reflectance` of a file, within the band asked for.
 Spectrum reflectance_of(const KkArguments& arguments) {
+  if (!(arguments.lo_nm < arguments.hi_nm))
+    throw input_error("--lo {}, --hi {}: no range; expected two wavelengths, the second greater", arguments.lo_nm,
+                      arguments.hi_nm);
   Spectrum all;
   if (names_a_file(arguments.id)) {
     const Curves curves = read_curves(arguments.id);

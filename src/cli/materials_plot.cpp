@@ -128,6 +128,9 @@ std::size_t longest_title(const std::vector<Panel>& panels) {
 }
 
 void plot(const PlotArguments& arguments, bool json) {
+  if (!(arguments.lo_nm < arguments.hi_nm))
+    throw input_error("--lo {}, --hi {}: no range; expected two wavelengths, the second greater", arguments.lo_nm,
+                      arguments.hi_nm);
   const std::vector<Panel> panels = panels_of(arguments);
   double lo = 1e9, hi = 0;
   for (const Panel& panel : panels)

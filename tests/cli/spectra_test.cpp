@@ -58,6 +58,10 @@ TEST_CASE("materials show --path and fresnel --conductivity", "[cli]") {
   const Scratch scratch;
   check_refused(scratch, {"fresnel", "--conductivity", "5.96e7"}, "expected --at NM");
   check_refused(scratch, {"fresnel", "Au", "--conductivity", "5.96e7", "--at", "550"}, "given with an index");
+  for (const char* path : {"nan", "-1", "inf"})
+    check_refused(scratch, {"materials", "show", "BK7", "--at", "550", "--path", path}, "expected 0 mm or more");
+  for (const char* command : {"plot", "kk"})
+    check_refused(scratch, {"materials", command, "Au", "--lo", "nan", "--hi", "700"}, "expected two wavelengths");
   check_refused(scratch, {"materials", "show", "D65", "--at", "550", "--path", "1"}, "expected optical-constants");
 }
 
