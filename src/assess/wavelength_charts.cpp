@@ -190,16 +190,19 @@ void write_page(const std::vector<FoundNodes>& found, const std::filesystem::pat
   write_file(folder / "nodes.csv", nodes_csv(found));
   write_file(folder / "errors.csv", csv_of(points));
   write_file(folder / "errors.svg", chart(points));
-  write_file(folder / "README.md",
-             "# As few wavelengths as the scene needs\n\n"
-             "The scene: the 24 ColorChecker patches (Ohta) and gold, silver, copper, aluminium and iron at normal "
-             "incidence, with all their products of two\nbounces (464 spectra) or three (4,959), observer CIE 1931. "
-             "Nodes and non-negative weights are chosen together so that the worst ΔE_2000\nagainst the sum at 1 nm, "
-             "its white for both, is least; spectra after one bounce more count half. The rules that do not know the "
-             "scene are\njudged by a white of their own, which flatters them. nodes.csv holds all nodes and weights "
-             "(of radiance, lamp scaled to at most 1); `gonio\nreport wavelengths` computes every error from it again, "
-             "`gonio assess speed wavelengths --thorough` searches.\n\n" +
-                 quoted_table(points) + "\n" + lamps_text(points) + "\n![nodes against error](errors.svg)\n");
+  write_file(
+      folder / "README.md",
+      "# As few wavelengths as the scene needs\n\n"
+      "The scene: the 24 ColorChecker patches (Ohta) and gold, silver, copper, aluminium and iron at normal "
+      "incidence, with all their products of two\nbounces (464 spectra) or three (4,959), observer CIE 1931. "
+      "Nodes and non-negative weights are chosen together so that the worst ΔE_2000\nagainst the sum at 1 nm, "
+      "its white for both, is least; spectra after one bounce more count half. The rules that do not know the "
+      "scene are\njudged by a white of their own, which flatters them. nodes.csv holds all nodes and weights "
+      "(of radiance, lamp scaled to at most 1); `gonio\nreport wavelengths` computes every error from it again, "
+      "`gonio assess speed wavelengths --thorough` searches. Searches end in different places: `thorough` stands for "
+      "the best nodes that any\nlong search has found so far, `quick` for what choose_wavelengths finds in about "
+      "0.1 s. `known before`: a plain local search over whole\nnanometres, two bounces.\n\n" +
+          quoted_table(points) + "\n" + lamps_text(points) + "\n![nodes against error](errors.svg)\n");
 }
 
 }  // namespace

@@ -25,19 +25,23 @@ Exchange::Exchange(const SceneProducts& products, std::vector<double> candidates
 }
 
 Exchange::Nodes Exchange::improved(Nodes nodes) const {
-  double best = objective(nodes);
+  double best = objective(nodes, {});
   for (bool moved = true; moved;) {
     moved = false;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (const Index candidate : promising(nodes, i)) {
-        Nodes trial = nodes;
-        trial[i] = candidate;
-        const double value = objective(trial);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      Nodes others = nodes;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const Eigen::VectorXd weight = weights_of(others);
+      for (const Index candidate : promising(others, weight, nodes[i])) {
+        Nodes trial = others;
+        trial.push_back(candidate);
+        const double value = objective(trial, weight);
         if (value < best - 1e-9 * std::abs(best)) {
-          best = value, nodes = trial, moved = true;
+          best = value, nodes[i] = candidate, moved = true;
           break;
         }
       }
+    }
   }
   std::sort(nodes.begin(), nodes.end());
   return nodes;
@@ -70,20 +74,28 @@ std::vector<Index> Exchange::unknowns(const Nodes& nodes) const {
   return list;
 }
 
-/// The least of the quadratic problem over non-negative weights of these nodes: -½·rᵀx at the solution.
-double Exchange::objective(const Nodes& nodes) const {
+Eigen::VectorXd Exchange::weights_of(const Nodes& nodes) const {
   const std::vector<Index> list = unknowns(nodes);
-  const Eigen::VectorXd right = problem_.right(list);
-  return -0.5 * right.dot(nnls(problem_.gram(list, list), right));
+  return nnls(problem_.gram(list, list), problem_.right(list));
 }
 
-/// The few candidates that promise most in place of node i: by the squares that each one's three weights would take
-/// off, given that the other nodes' positive weights follow (a Schur complement), signs left aside.
-std::vector<Index> Exchange::promising(const Nodes& nodes, std::size_t i) const {
-  Nodes others = nodes;
-  others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-  const std::vector<Index> list = unknowns(others);
-  const Eigen::VectorXd weight = nnls(problem_.gram(list, list), problem_.right(list));
+/// The least of the quadratic problem over non-negative weights of these nodes: -½·rᵀx at the solution. `known`: the
+/// weights of all but the last node without it, where the solution is then sought.
+double Exchange::objective(const Nodes& nodes, const Eigen::VectorXd& known) const {
+  const std::vector<Index> list = unknowns(nodes);
+  const Eigen::VectorXd right = problem_.right(list);
+  Eigen::VectorXd start;
+  if (const Index n = static_cast<Index>(nodes.size()); known.size() == 3 * (n - 1)) {
+    start.setZero(3 * n);
+    for (Index c = 0; c < 3; ++c) start.segment(c * n, n - 1) = known.segment(c * (n - 1), n - 1);
+  }
+  return -0.5 * right.dot(nnls(problem_.gram(list, list), right, start));
+}
+
+/// The few candidates that promise most beside some nodes, in place of `left_node`: by the squares that each one's
+/// three weights would take off, given that the nodes' positive weights follow (a Schur complement), signs left aside.
+std::vector<Index> Exchange::promising(const Nodes& nodes, const Eigen::VectorXd& weight, Index left_node) const {
+  const std::vector<Index> list = unknowns(nodes);
   std::vector<Index> free;
   for (std::size_t u = 0; u < list.size(); ++u)
     if (weight[static_cast<Index>(u)] > 0) free.push_back(list[u]);
@@ -92,7 +104,7 @@ std::vector<Index> Exchange::promising(const Nodes& nodes, std::size_t i) const 
   const Eigen::VectorXd known = factor.matrixL().solve(Eigen::VectorXd(problem_.right(free)));
   std::vector<std::pair<double, Index>> gains;
   for (Index j = 0; j < count_; ++j) {
-    if (std::find(nodes.begin(), nodes.end(), j) != nodes.end()) continue;
+    if (j == left_node || std::find(nodes.begin(), nodes.end(), j) != nodes.end()) continue;
     const std::vector<Index> own = unknowns({j});
     const Eigen::MatrixXd part = cross(Eigen::all, own);
     Eigen::Matrix3d left = problem_.gram(own, own);

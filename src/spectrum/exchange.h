@@ -23,8 +23,9 @@ class Exchange {
 
  private:
   std::vector<Eigen::Index> unknowns(const Nodes& nodes) const;
-  double objective(const Nodes& nodes) const;
-  std::vector<Eigen::Index> promising(const Nodes& nodes, std::size_t i) const;
+  Eigen::VectorXd weights_of(const Nodes& nodes) const;
+  double objective(const Nodes& nodes, const Eigen::VectorXd& known) const;
+  std::vector<Eigen::Index> promising(const Nodes& nodes, const Eigen::VectorXd& weight, Eigen::Index left_node) const;
 
   std::vector<double> nm_;
   Eigen::Index count_;

@@ -31,6 +31,9 @@ class SceneProducts {
   Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }  ///< lights × products
   int bounces() const { return bounces_; }
 
+  /// Whether a spectrum has one bounce more than asked for.
+  bool is_watching(Eigen::Index row) const { return rows_[static_cast<std::size_t>(row)] % products_ >= watching_; }
+
   /// These spectra alone (by their place here).
   SceneProducts some(const std::vector<Eigen::Index>& rows) const;
 
@@ -58,9 +61,7 @@ class SceneProducts {
   Eigen::VectorXd every_radiance(double nm) const;
   void list_products(int reflectances);
   Eigen::Index light_of(Eigen::Index row) const { return rows_[static_cast<std::size_t>(row)] / products_; }
-  double share_of(Eigen::Index row) const {
-    return rows_[static_cast<std::size_t>(row)] % products_ < watching_ ? 1 : 1 / kOneBounceMore;
-  }
+  double share_of(Eigen::Index row) const { return is_watching(row) ? 1 / kOneBounceMore : 1; }
 
   int bounces_;
   double lo_nm_, hi_nm_;

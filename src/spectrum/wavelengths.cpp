@@ -17,9 +17,10 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double kCoarse_nm = 5;
-constexpr std::size_t kFewCandidates = 30;
-constexpr Index kWorkingSpectra = 450;  ///< of a larger scene the search sees so many, and the worst of the rest
-constexpr int kQuickRounds = 12, kRounds = 20, kSteps = 12, kKnocks = 150;
+constexpr std::size_t kFewCandidates = 30, kFollowed = 2;
+/// Of a larger scene the search sees so many spectra, so many with one bounce more, and the worst of the rest.
+constexpr std::size_t kWorkingSpectra = 300, kWorkingWatching = 300;
+constexpr int kQuickRounds = 15, kRounds = 20, kSteps = 12, kKnocks = 150;
 
 bool better(const NodeWeights& p, const NodeWeights& q) { return p.worst_e2000 < q.worst_e2000; }
 
@@ -65,23 +66,23 @@ NodeWeights refined(const SceneProducts& products, const NodeWeights& fit) {
   near.erase(std::unique(near.begin(), near.end()), near.end());
   const Exchange fine(products, lit(products, near), 0.5 * equal_importance(products) + 0.5 * fit.importance);
   const std::vector<double> nodes = fine.wavelengths(fine.improved(fine.nearest(fit.nodes_nm)));
-  return std::min(fit, fit_weights(products, nodes, kRounds, fit.importance), better);
+  return std::min(fit, fit_weights(products, nodes, kQuickRounds, fit.importance), better);
 }
 
 NodeWeights quick_choice(const SceneProducts& products, const Exchange& exchange, int count,
                          const WavelengthSearch& search) {
   std::mt19937_64 random(search.seed);
-  std::vector<std::vector<double>> tried;
-  NodeWeights best;
-  best.worst_e2000 = std::numeric_limits<double>::infinity();
+  std::vector<NodeWeights> found;
   for (int start = 0; start < search.starts; ++start) {
     const Exchange::Nodes nodes = exchange.nearest(spread(products, count, start, random));
     const std::vector<double> nm = exchange.wavelengths(exchange.improved(nodes));
-    if (std::find(tried.begin(), tried.end(), nm) != tried.end()) continue;
-    tried.push_back(nm);
-    best = std::min(best, fit_weights(products, nm, kQuickRounds), better);
+    if (std::any_of(found.begin(), found.end(), [&](const NodeWeights& f) { return f.nodes_nm == nm; })) continue;
+    found.push_back(fit_weights(products, nm, kQuickRounds));
   }
-  return descend_nodes(products, refined(products, best), kSteps, kRounds);
+  std::sort(found.begin(), found.end(), better);
+  found.resize(std::min(found.size(), kFollowed));
+  for (NodeWeights& f : found) f = descend_nodes(products, refined(products, f), kSteps, kQuickRounds);
+  return *std::min_element(found.begin(), found.end(), better);
 }
 
 /// Knocks one to three nodes aside by up to 20 nm and descends again, many times over.
@@ -127,8 +128,10 @@ NodeWeights thorough_choice(const SceneProducts& products, NodeWeights best, std
 class WorkingSet {
  public:
   explicit WorkingSet(const SceneProducts& all) : all_(all), taken_(static_cast<std::size_t>(all.size()), false) {
-    const double step = std::max(1.0, static_cast<double>(all.size()) / static_cast<double>(kWorkingSpectra));
-    for (double i = 0; i < static_cast<double>(all.size()); i += step) take(static_cast<Index>(i));
+    std::vector<Index> asked, watching;
+    for (Index i = 0; i < all.size(); ++i) (all.is_watching(i) ? watching : asked).push_back(i);
+    take_evenly(asked, kWorkingSpectra);
+    take_evenly(watching, kWorkingWatching);
   }
 
   bool is_all() const { return static_cast<Index>(rows_.size()) == all_.size(); }
@@ -146,6 +149,11 @@ class WorkingSet {
   }
 
  private:
+  void take_evenly(const std::vector<Index>& list, std::size_t most) {
+    const double step = std::max(1.0, static_cast<double>(list.size()) / static_cast<double>(most));
+    for (double i = 0; i < static_cast<double>(list.size()); i += step) take(list[static_cast<std::size_t>(i)]);
+  }
+
   void take(Index row) {
     taken_[static_cast<std::size_t>(row)] = true;
     rows_.push_back(row);
