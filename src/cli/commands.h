@@ -19,6 +19,7 @@ void add_common(CLI::App& command, Common& common);
 void add_materials(CLI::App& app, Common& common);
 void add_materials_import(CLI::App& materials, Common& common);
 void add_materials_kk(CLI::App& materials, Common& common);
+void add_materials_value(CLI::App& materials, Common& common);
 void add_materials_plot(CLI::App& materials, Common& common);
 void add_materials_swatch(CLI::App& materials, Common& common);
 void add_fresnel(CLI::App& app, Common& common);

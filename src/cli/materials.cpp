@@ -202,6 +202,7 @@ void add_materials(CLI::App& app, Common& common) {
       "Another database: a folder of text entries or a compiled file (default: the bundled and the user's)");
   check_all->callback([&common, arguments] { common.exit_code = check(arguments->folder, common.json) ? 0 : 1; });
   add_materials_import(*command, common);
+  add_materials_value(*command, common);
   add_materials_kk(*command, common), add_materials_plot(*command, common), add_materials_swatch(*command, common);
   for (auto* subcommand : {list, search, show_card, check_all}) add_common(*subcommand, common);
 }

@@ -206,6 +206,7 @@ double Interpolator::at(double x) const {
 
 Interpolated Interpolator::at(double x, Extension extension) const {
   if (x >= lo() && x <= hi()) return {state_->value(x), false};
+  if (!std::isfinite(x)) throw input_error("{} is no place on a table; expected a finite number", x);
   const Values &px = state_->x, &py = state_->y;
   const bool below = x < lo();
   const std::size_t end = below ? 0 : px.size() - 1, inner = below ? 1 : px.size() - 2;

@@ -122,6 +122,7 @@ TEST_CASE("Interpolation: beyond the table only when asked, and marked", "[spect
   CHECK_THROWS_AS(table.at(399.9), InputError);
   CHECK_THROWS_AS(table.at(700.1), InputError);
   CHECK_THROWS_AS(table.at(std::nan("")), InputError);
+  CHECK_THROWS_AS(table.at(std::nan(""), Extension::nearest), InputError);
   CHECK(table.at(700, Extension::nearest).extrapolated == false);
   CHECK(table.at(800, Extension::nearest).extrapolated);
   CHECK(table.at(800, Extension::nearest).value == 3);
