@@ -6,17 +6,11 @@
 #include "materials/entry_checks.h"
 #include "materials/entry_reader.h"
 #include "materials/import_formats.h"
+#include "materials/near_names.h"
 
 // Tables: `# key: value` lines, a header row that names the columns and the unit of the wavelength, rows of numbers.
 namespace gonio {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
 
 struct Line {
   std::string_view text;

@@ -7,13 +7,6 @@
 namespace gonio {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
 /// Levenshtein's distance: insertions, deletions and replacements that turn one into the other.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -35,6 +28,13 @@ std::size_t unlikeness(const std::string& typed, const std::string& name) {
 
 }  // namespace
 
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
 std::vector<std::string> near_names(std::string_view typed, const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 5, kLongest = 64;
   const std::string wanted = lower(typed.substr(0, kLongest));
@@ -46,16 +46,6 @@ std::vector<std::string> near_names(std::string_view typed, const std::vector<st
   std::vector<std::string> near;
   for (std::size_t i = 0; i < std::min(kMost, ranked.size()); ++i) near.push_back(ranked[i].second);
   return near;
-}
-
-bool has_every_word(std::string_view text, std::string_view words) {
-  const std::string in = lower(text), query = lower(words);
-  for (std::size_t at = query.find_first_not_of(' '); at != std::string::npos;) {
-    const std::size_t end = std::min(query.find(' ', at), query.size());
-    if (in.find(query.substr(at, end - at)) == std::string::npos) return false;
-    at = query.find_first_not_of(' ', end);
-  }
-  return true;
 }
 
 }  // namespace gonio
