@@ -13,7 +13,7 @@
 namespace gonio {
 
 struct ValidationSettings {
-  int spp = 256;    ///< paths a pixel of the renders
+  int spp = 512;    ///< paths a pixel of the renders
   int starts = 16;  ///< starts of each fit
   std::uint64_t seed = 1;
   int threads = 0;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 struct ValidateArguments {
   std::vector<std::string> measurements;
   std::string out = "out";
-  int spp = 256;
+  int spp = 512;
 };
 
 std::vector<std::string> bundled_measurements() {
