@@ -31,32 +31,33 @@ T stirling_error(const T& x) {
   return series + select(x < T(8), (y + T(0.5)) * log(y) - (x + T(0.5)) * log(x) - T(7) - log(product), T(0));
 }
 
-/// x ln(x/g) + g - x without cancellation at x ≈ g (Loader 2000): with v = (x-g)/(x+g),
-///   (x-g)·v + 2x(v³/3 + v⁵/5 + …).
+/// x ln(x/g) + g - x without cancellation at x ≈ g (Loader 2000): with d = x - g, v = d/(x+g),
+///   d·v + 2x(v³/3 + v⁵/5 + …).
+/// d comes beside x: for g ≫ 1 the two are known better than their difference.
 template <class T>
-T poisson_deviance(const T& x, const T& g) {
+T poisson_deviance(const T& x, const T& d, const T& g) {
   using std::abs, std::log;
-  const T v = (x - g) / (x + g), v2 = square(v);
+  const T v = d / (x + g), v2 = square(v);
   T odd(0);
   for (int n = 25; n >= 3; n -= 2) odd = T(1) / T(n) + v2 * odd;
-  return select(abs(v) < T(0.25), (x - g) * v + T(2) * x * v * v2 * odd, x * log(x / g) + g - x);
+  return select(abs(v) < T(0.25), d * v + T(2) * x * v * v2 * odd, x * log(x / g) - d);
 }
 
-/// One term of the series at a real index x >= 1: Pois(x; g)/x · exp(-b/x), from its logarithm.
+/// One term of the series at a real index x = g + d >= 1: Pois(x; g)/x · exp(-b/x), from its logarithm.
 template <class T>
-T poisson_lobe_term(const T& x, const T& g, const T& b) {
+T poisson_lobe_term(const T& x, const T& d, const T& g, const T& b) {
   using std::exp, std::sqrt;
-  return exp(-stirling_error(x) - poisson_deviance(x, g) - b / x) / (x * sqrt(T(2) * kPi<T> * x));
+  return exp(-stirling_error(x) - poisson_deviance(x, d, g) - b / x) / (x * sqrt(T(2) * kPi<T> * x));
 }
 
-/// Where the terms peak: x² ln(x/g) = b, x = g·exp(W(2b/g²)/2), W Lambert's (Winitzki's approximation, 2 %: only the
-/// placing of the nodes depends on it).
+/// Where the terms peak, less g: x² ln(x/g) = b, x = g·exp(W(2b/g²)/2), W Lambert's (Winitzki's approximation, 2 %: only
+/// the placing of the nodes depends on it).
 template <class T>
-T poisson_lobe_peak(const T& g, const T& b) {
-  using std::exp, std::log1p;
+T poisson_lobe_peak_offset(const T& g, const T& b) {
+  using std::expm1, std::log1p;
   const T q = smaller_of(T(2) * b / g / g, T(1e30));
   const T l = log1p(q);
-  return g * exp(T(0.5) * l * (T(1) - log1p(l) / (T(2) + l)));
+  return g * expm1(T(0.5) * l * (T(1) - log1p(l) / (T(2) + l)));
 }
 
 /// Σ_{j>=1} Pois(j; g)/j · exp(-b/j): the diffraction series of Beckmann & Spizzichino 1963 (Maillot 1996 eq. (18a)),
@@ -72,21 +73,23 @@ T poisson_lobe_sum(const T& g, const T& b) {
   using Precision = SeriesPrecision<scalar_t<T>>;
   const auto g0 = value_of(g), b0 = value_of(b);
   using V = std::remove_cvref_t<decltype(g0)>;
-  const V peak = larger_of(poisson_lobe_peak(g0, b0), V(1));
+  const V offset = poisson_lobe_peak_offset(g0, b0), peak = larger_of(V(g0 + offset), V(1));
   const V deviation = V(1) / sqrt(V(1) / peak + V(2) * b0 / (peak * peak * peak));
   const auto coarse = peak > V(Precision::coarse_from);
   const V step = select(coarse, larger_of(V(Precision::step) * deviation, V(1)), V(1));
-  const V middle = select(coarse, peak, V(floor(peak + V(0.5))));
+  const V middle = select(coarse, offset, V(V(floor(peak + V(0.5))) - g0));  // the central node, less g
+  // The nodes carry no derivatives; g does: its own are in x - g.
+  const T shift = T(g0) - g;
+  const auto term = [&](const V& d) { return poisson_lobe_term(T(larger_of(V(g0 + d), V(1))), T(T(d) + shift), g, b); };
 
-  T sum = poisson_lobe_term(T(middle), g, b);
+  T sum = term(middle);
   for (int side = 0; side < 2; ++side) {
     const V stride = side == 0 ? step : V(-step);
-    V x = middle + stride;
     T last = sum;
-    for (;; x += stride) {
-      const auto inside = x >= V(1);
+    for (V d = middle + stride;; d += stride) {
+      const auto inside = g0 + d >= V(0.5);
       if (!any(inside)) break;
-      last = select(inside, poisson_lobe_term(T(larger_of(x, V(1))), g, b), T(0));
+      last = select(inside, term(d), T(0));
       sum += last;
       if (!any(value_of(last) > V(Precision::cut) * value_of(sum))) break;
     }

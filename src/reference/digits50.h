@@ -17,10 +17,10 @@ inline const Digits50 kSqrt2Pi<Digits50> = boost::math::constants::root_two_pi<D
 template <>
 inline const Digits50 kSqrt2<Digits50> = boost::math::constants::root_two<Digits50>();
 
-/// The judge sums every integer term: no trapezoidal steps.
+/// The judge sums every integer term up to a peak at 1e5; above, steps of 0.38 standard deviations lose 2e-59.
 template <>
 struct SeriesPrecision<Digits50> {
-  static constexpr double cut = 1e-52, coarse_from = 1e300, step = 1;
+  static constexpr double cut = 1e-52, coarse_from = 1e5, step = 0.38;
 };
 
 template <>
@@ -29,8 +29,8 @@ inline Digits50 stirling_error(const Digits50& x) {
 }
 
 template <>
-inline Digits50 poisson_deviance(const Digits50& x, const Digits50& g) {
-  return x * log(Digits50(x / g)) + g - x;
+inline Digits50 poisson_deviance(const Digits50& x, const Digits50& d, const Digits50& g) {
+  return x * log(Digits50(x / g)) - d;
 }
 
 }  // namespace gonio

@@ -78,8 +78,8 @@ TEST_CASE("Nodes further apart than the constants allow lose what they say", "[b
   const double g = 400;
   const auto coarse = [&](double step) {
     double sum = 0;
-    for (double x = g; x < g + 12 * std::sqrt(g); x += step * std::sqrt(g)) sum += poisson_lobe_term(x, g, 0.0);
-    for (double x = g - step * std::sqrt(g); x > 1; x -= step * std::sqrt(g)) sum += poisson_lobe_term(x, g, 0.0);
+    for (double x = g; x < g + 12 * std::sqrt(g); x += step * std::sqrt(g)) sum += poisson_lobe_term(x, x - g, g, 0.0);
+    for (double x = g - step * std::sqrt(g); x > 1; x -= step * std::sqrt(g)) sum += poisson_lobe_term(x, x - g, g, 0.0);
     return sum * step * std::sqrt(g);
   };
   const double exact = oracle::kirchhoff_sum(g, 0).convert_to<double>();
@@ -87,6 +87,17 @@ TEST_CASE("Nodes further apart than the constants allow lose what they say", "[b
   CHECK(std::abs(coarse(1.0) / exact - 1) > 1e-10);
   CHECK(std::abs(coarse(SeriesPrecision<float>::step) / exact - 1) < 1e-7);
   CHECK(std::abs(coarse(1.6) / exact - 1) > 1e-5);
+}
+
+TEST_CASE("Very rough surfaces, g to 1e10: the limit with its first correction, in double and float", "[brdf]") {
+  // Σ → exp(-t)/g·(1 + (2 - 4t + t²)/(2g)), t = b/g (PHYSICS, Reflection models 4); what it leaves is O(t⁴/g²).
+  for (const double g : {1e7, 1e8, 1e10})
+    for (const double t : {0.0, 0.5, 3.0, 10.0}) {
+      const double expected = std::exp(-t) / g * (1 + (2 - 4 * t + t * t) / (2 * g));
+      INFO("g " << g << " t " << t);
+      CHECK(poisson_lobe_sum(g, t * g) == Approx(expected).epsilon(2e-10));
+      CHECK(poisson_lobe_sum(FloatLanes(float(g)), FloatLanes(float(t * g))).get(0) == Approx(expected).epsilon(2e-5));
+    }
 }
 
 TEST_CASE("Stirling's error against ln Gamma", "[brdf]") {
