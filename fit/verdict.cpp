@@ -130,7 +130,7 @@ void say_what_is_missed(FitResult& result) {
 /// about a percent, which exact data show and measured data seldom do.
 void say_when_only_the_slope_counts(const Prepared& prepared, FitResult& result) {
   constexpr double kLargeG = 100;
-  if (result.model.id != ModelId::beckmann_kirchhoff || result.model.form != KirchhoffForm::series) return;
+  if (result.model.id != ModelId::beckmann_kirchhoff || result.model.variant() != "exact") return;
   if (!result.find("sigma_um")->identifiable) return;  // said already
   const BeckmannKirchhoff<double> kirchhoff{result.value("sigma_um"), result.value("correlation_um")};
   std::vector<double> g;

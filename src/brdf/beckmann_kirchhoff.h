@@ -19,6 +19,7 @@ enum class KirchhoffForm { series, rough_limit, smooth_limit };
 /// unbounded at grazing (no shadowing).
 template <class T>
 struct BeckmannKirchhoff {
+  static constexpr bool kFacets = true, kDiffracts = true;
   T sigma_um, correlation_um;
   KirchhoffForm form = KirchhoffForm::series;
 

@@ -1,11 +1,18 @@
 #pragma once
 #include <span>
 #include <variant>
+#include <vector>
 
+#include "brdf/ashikhmin_shirley.h"
 #include "brdf/beckmann_kirchhoff.h"
+#include "brdf/blinn_phong_normalised.h"
+#include "brdf/lafortune.h"
 #include "brdf/lambert.h"
+#include "brdf/low_abc.h"
 #include "brdf/models.h"
 #include "brdf/pseudo_realistic.h"
+#include "brdf/rough_dielectric.h"
+#include "brdf/sgd.h"
 #include "brdf/torrance_sparrow.h"
 #include "optics/interface.h"
 
@@ -13,49 +20,100 @@ namespace gonio {
 
 /// The closed list of lobes: adding a model is one header, one line here and one in models.cpp, and its reference test.
 template <class T>
-using Lobe = std::variant<Lambert, PseudoRealistic<T>, TorranceSparrow<T>, BeckmannKirchhoff<T>>;
+using Lobe = std::variant<Lambert, PseudoRealistic<T>, TorranceSparrow<T>, BeckmannKirchhoff<T>,
+                          // empirical
+                          Lafortune<T>, AshikhminShirley<T>, BlinnPhongNormalised<T>, LowSmooth<T>, LowMicrofacet<T>,
+                          ShiftedGamma<T>, RoughDielectric<T>>;
 
 /// f = kd·ρd/π + ks·lobe, in sr⁻¹, without cosine. ρd = R0 in `pseudo-realistic`, 1 elsewhere.
+///
+/// A lobe is a small struct over T with `shape(w)` (or `shape(w, wavelength_um)`), the lobe without the reflectance R of its
+/// facets, and says by constants what else it needs:
+///   kFacets      its shape is multiplied by R(cos_d) (else its parameters hold all of its reflectance);
+///   kDiffracts   its shape looks at the wavelength.
+/// A member `bool schlick_fresnel`, where a lobe has one, puts Schlick's R in place of Fresnel's.
 template <class T>
 struct Brdf {
   Lobe<T> lobe;
   T kd = T(0), ks = T(1);
+  bool retro = false;  ///< the lobe turned back: i mirrored about the normal before its shape is taken
 
   bool diffuse_times_r0() const { return std::holds_alternative<PseudoRealistic<T>>(lobe); }
+  bool diffracts() const {
+    return std::visit([]<class L>(const L&) { return L::kDiffracts; }, lobe);
+  }
+  bool facets() const {
+    return std::visit([]<class L>(const L&) { return L::kFacets; }, lobe);
+  }
 };
 
-/// The lobe without its reflectance R: sr⁻¹. Only beckmann-kirchhoff looks at the wavelength.
+/// A lobe without R: sr⁻¹.
+template <class T, class L, class G>
+T shape_of(const L& lobe, const Directions<G>& w, const T& wavelength_um) {
+  if constexpr (std::is_same_v<L, Lambert>) return T(0);
+  else if constexpr (L::kDiffracts) return lobe.shape(w, wavelength_um);
+  else return lobe.shape(w);
+}
 template <class T, class G>
 T lobe_shape(const Lobe<T>& lobe, const Directions<G>& w, const T& wavelength_um) {
-  return std::visit(
-      [&]<class L>(const L& one) -> T {
-        if constexpr (std::is_same_v<L, Lambert>) return T(0);
-        else if constexpr (std::is_same_v<L, BeckmannKirchhoff<T>>) return one.shape(w, wavelength_um);
-        else return one.shape(w);
-      },
-      lobe);
+  return std::visit([&](const auto& one) { return shape_of<T>(one, w, wavelength_um); }, lobe);
+}
+
+/// What multiplies a lobe's shape: R of its facets, exact or Schlick's, or 1.
+template <class T, class L>
+T facet_reflectance(const L& lobe, const T& cos_d, const Interface<T>& surface) {
+  if constexpr (!L::kFacets) return T(1);
+  else if constexpr (requires { lobe.schlick_fresnel; })
+    return lobe.schlick_fresnel ? surface.schlick_reflectance(cos_d) : surface.reflectance(cos_d);
+  else return surface.reflectance(cos_d);
+}
+template <class T>
+T facet_reflectance(const Lobe<T>& lobe, const T& cos_d, const Interface<T>& surface) {
+  return std::visit([&](const auto& one) { return facet_reflectance<T>(one, cos_d, surface); }, lobe);
 }
 
 /// f_r in sr⁻¹ of a pair of directions above the horizon (cosines > 0). Deltas (the coherent part) evaluate to 0 here.
 template <class T, class G>
-T evaluate(const Brdf<T>& brdf, const Directions<G>& w, const Interface<T>& surface, const T& wavelength_um) {
+T evaluate(const Brdf<T>& brdf, const Directions<G>& given, const Interface<T>& surface, const T& wavelength_um) {
+  const Directions<G> w = brdf.retro ? turned_back(given) : given;
   const T rho_d = brdf.diffuse_times_r0() ? surface.r0() : T(1);
-  return brdf.kd * rho_d / kPi<T> + brdf.ks * surface.reflectance(T(w.cos_d)) * lobe_shape(brdf.lobe, w, wavelength_um);
+  const T lobe = std::visit(
+      [&](const auto& one) { return T(facet_reflectance<T>(one, T(w.cos_d), surface) * shape_of<T>(one, w, wavelength_um)); },
+      brdf.lobe);
+  return brdf.kd * rho_d / kPi<T> + brdf.ks * lobe;
 }
 
-/// Values in the order of the model's parameter list (kSlope…, kd, ks; lambert: kd).
+/// The model's lobe. Values in the order of its parameter list.
 template <class T>
-Brdf<T> make_brdf(const ModelSpec& spec, std::span<const T> values) {
+Lobe<T> make_lobe(const ModelSpec& spec, std::span<const T> values) {
   using std::sqrt;
   switch (spec.id) {
-    case ModelId::lambert: return {Lambert{}, values[0], T(0)};
-    case ModelId::pseudo_realistic: return {PseudoRealistic<T>{values[0]}, values[1], values[2]};
-    case ModelId::torrance_sparrow:
-      return {TorranceSparrow<T>{kSqrt2<T> * values[0], spec.shadowing}, values[1], values[2]};
-    case ModelId::beckmann_kirchhoff:
-      return {BeckmannKirchhoff<T>{values[0], values[1], spec.form}, values[2], values[3]};
+    case ModelId::lambert: return Lambert{};
+    case ModelId::pseudo_realistic: return PseudoRealistic<T>{values[0]};
+    case ModelId::torrance_sparrow: return TorranceSparrow<T>{kSqrt2<T> * values[0], spec.shadowing};
+    case ModelId::beckmann_kirchhoff: return BeckmannKirchhoff<T>{values[0], values[1], KirchhoffForm(spec.form)};
+    case ModelId::lafortune_1997: return Lafortune<T>{values[0], values[1], values[2], values[3], LafortuneForm(spec.form)};
+    case ModelId::ashikhmin_shirley_2000:
+      return AshikhminShirley<T>{values[0], values[1], values[2], values[3], AshikhminShirleyForm(spec.form)};
+    case ModelId::blinn_phong_normalised: return BlinnPhongNormalised<T>{values[0], BlinnPhongScale(spec.form)};
+    case ModelId::low_smooth_2012: return LowSmooth<T>{values[0], values[1], values[2]};
+    case ModelId::low_microfacet_2012: return LowMicrofacet<T>{values[0], values[1], values[2], LowScale(spec.form)};
+    case ModelId::sgd_2012:
+      return ShiftedGamma<T>{values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7], values[8]};
+    case ModelId::rough_dielectric: return RoughDielectric<T>{values[0], DielectricNormals(spec.form)};
   }
-  return {Lambert{}, T(0), T(0)};
+  return Lambert{};
+}
+
+/// Values in the order of the model's parameter list, which ends in kd, ks (lambert: kd alone).
+template <class T>
+Brdf<T> make_brdf(const ModelSpec& spec, std::span<const T> values) {
+  if (spec.id == ModelId::lambert) return {Lambert{}, values[0], T(0), false};
+  return {make_lobe(spec, values), values[values.size() - 2], values[values.size() - 1], spec.retro};
+}
+template <class T>
+Brdf<T> make_brdf(const ModelSpec& spec, const std::vector<T>& values) {
+  return make_brdf<T>(spec, std::span<const T>(values));
 }
 
 /// Energy of the coherent delta in the mirror direction, R·exp(-g)·ks; 0 for the other models.

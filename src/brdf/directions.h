@@ -4,8 +4,8 @@
 
 namespace gonio {
 
-/// What an isotropic reflection model needs of a pair of directions: i towards the light, o towards the eye, both away
-/// from the surface; h = i + o. Tangents come from components: a cosine near 1 has lost the angle (at alpha = 1e-4: 1e-8
+/// What a reflection model needs of a pair of directions: i towards the light, o towards the eye, both away from the
+/// surface; h = i + o. Isotropic lobes about the half vector need the scalars alone; the others the components too. Tangents come from components: a cosine near 1 has lost the angle (at alpha = 1e-4: 1e-8
 /// in double, factors in float), so it is never turned back into a sine.
 template <class T>
 struct Directions {
@@ -13,6 +13,8 @@ struct Directions {
   T cos_d;           ///< half vector with either direction
   T tan2_h;          ///< half vector with the mean normal
   T tan2_i, tan2_o;  ///< directions with the mean normal
+  T ix = T(0), iy = T(0), ox = T(0), oy = T(0);  ///< components in the mean plane, x along the grain
+  T hx = T(0), hy = T(0);                        ///< of h = i + o, not normalised
 
   T cos_h() const { return (cos_i + cos_o) / (T(2) * cos_d); }
 };
@@ -28,7 +30,20 @@ Directions<T> reduce(const T& ix, const T& iy, const T& iz, const T& ox, const T
           T(0.5) * sqrt(h_xy2 + square(hz)),  // |i + o| = 2 cos_d
           h_xy2 / square(hz),
           (square(ix) + square(iy)) / square(iz),
-          (square(ox) + square(oy)) / square(oz)};
+          (square(ox) + square(oy)) / square(oz),
+          ix,
+          iy,
+          ox,
+          oy,
+          hx,
+          hy};
+}
+
+/// i replaced by its mirror image about the normal, (-ix, -iy, iz): a lobe of these directions peaks towards the light.
+/// The "back vector" of Belcour et al. 2014, eq. (4).
+template <class T>
+Directions<T> turned_back(const Directions<T>& w) {
+  return reduce(T(-w.ix), T(-w.iy), w.cos_i, w.ox, w.oy, w.cos_o);
 }
 
 /// Sine and cosine of an angle in degrees, 0 to 90: taken on the side of 45° where nothing is lost.
@@ -45,23 +60,31 @@ T sin_deg(const T& angle_deg) {
   return angle_deg <= T(45) ? T(sin(angle_deg * (kPi<T> / T(180)))) : T(cos((T(90) - angle_deg) * (kPi<T> / T(180))));
 }
 
-/// From angles in degrees: zenith angles 0 <= theta < 90, phi = phi_o - phi_i (180 = mirror side). The component of i + o
-/// along the plane of incidence, sin_i - sin_o·cos δ with δ = phi - 180°, is formed from differences of the angles:
+/// From angles in degrees: zenith angles 0 <= theta < 90, phi = phi_o - phi_i (180 = mirror side), phi_i from the grain (x).
+/// The component of i + o along the plane of incidence, sin_i - sin_o·cos δ with δ = phi - 180°, is formed from differences
+/// of the angles:
 ///   u² = (sin_i - sin_o)² + 4 sin_i sin_o sin²(δ/2), w = cos_i + cos_o, tan²θ_h = u²/w², 4cos²θ_d = u² + w².
 template <class T>
-Directions<T> directions_from_deg(const T& theta_i_deg, const T& theta_o_deg, const T& phi_deg) {
+Directions<T> directions_from_deg(const T& theta_i_deg, const T& theta_o_deg, const T& phi_deg, const T& phi_i_deg = T(0)) {
   using std::abs, std::cos, std::fmod, std::sin, std::sqrt;
   const T to_radians = kPi<T> / T(180);
-  T delta_deg = abs(fmod(phi_deg, T(360)));
-  delta_deg = abs(delta_deg - T(180));
+  T turned_deg = fmod(phi_deg, T(360));  // into (-180, 180], so that δ is small on the mirror side whatever the turn
+  turned_deg = select(turned_deg > T(180), turned_deg - T(360), select(turned_deg <= T(-180), turned_deg + T(360), turned_deg));
+  const T delta_deg = select(turned_deg > T(0), turned_deg - T(180), turned_deg + T(180));
   const T sin_i = sin_deg(theta_i_deg), sin_o = sin_deg(theta_o_deg);
   const T cos_i = cos_deg(theta_i_deg), cos_o = cos_deg(theta_o_deg);
   const T half_sum = T(0.5) * ((T(90) - theta_i_deg) + (T(90) - theta_o_deg));  // 90° - mean: its sine is the mean's cosine
   const T sine_difference =
       T(2) * sin(half_sum * to_radians) * sin(T(0.5) * (theta_i_deg - theta_o_deg) * to_radians);
-  const T u2 = square(sine_difference) + T(4) * sin_i * sin_o * square(T(sin(T(0.5) * delta_deg * to_radians)));
+  const T half_sine2 = square(T(sin(T(0.5) * delta_deg * to_radians)));
+  const T u2 = square(sine_difference) + T(4) * sin_i * sin_o * half_sine2;
   const T w = cos_i + cos_o;
-  return {cos_i, cos_o, T(0.5) * T(sqrt(u2 + square(w))), u2 / square(w), square(sin_i / cos_i), square(sin_o / cos_o)};
+  // In and across the plane of incidence, then turned to the grain.
+  const T h_in = sine_difference + T(2) * sin_o * half_sine2, h_across = -sin_o * sin(delta_deg * to_radians);
+  const T c = cos(phi_i_deg * to_radians), s = sin(phi_i_deg * to_radians);
+  const T ix = sin_i * c, iy = sin_i * s, hx = h_in * c - h_across * s, hy = h_in * s + h_across * c;
+  return {cos_i, cos_o, T(0.5) * T(sqrt(u2 + square(w))), u2 / square(w), square(sin_i / cos_i), square(sin_o / cos_o),
+          ix,    iy,    hx - ix,                          hy - iy,        hx,                    hy};
 }
 
 }  // namespace gonio

@@ -7,7 +7,9 @@ namespace gonio {
 template <class Lanes>
 Directions<Lanes> spread(const Directions<double>& w) {
   using S = scalar_t<Lanes>;
-  return {Lanes(S(w.cos_i)), Lanes(S(w.cos_o)), Lanes(S(w.cos_d)), Lanes(S(w.tan2_h)), Lanes(S(w.tan2_i)), Lanes(S(w.tan2_o))};
+  const auto all = [](double x) { return Lanes(S(x)); };
+  return {all(w.cos_i), all(w.cos_o), all(w.cos_d), all(w.tan2_h), all(w.tan2_i), all(w.tan2_o),
+          all(w.ix),    all(w.iy),    all(w.ox),    all(w.oy),     all(w.hx),     all(w.hy)};
 }
 
 template <class Lanes>

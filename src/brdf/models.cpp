@@ -4,16 +4,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "brdf/model_lists.h"
 
 namespace gonio {
 namespace {
 
-constexpr ParameterInfo kKd{"kd", "1", "diffuse factor", 0, 10, 1e-4, 2, 0.0, true};
-constexpr ParameterInfo kKs{"ks", "1", "lobe factor", 0, 100, 1e-4, 10, 1.0, true};
-constexpr ParameterInfo kSlope{
-    "m", "1", "slope rms, one-dimensional (alpha = sqrt(2) m may be given instead)", 1e-4, 10, 5e-3, 1, std::nullopt};
-
-std::vector<ModelInfo> make_models() {
+/// The thesis's own, in the order of PHYSICS.
+std::vector<ModelInfo> thesis_models() {
   ParameterInfo lambert_kd = kKd;
   lambert_kd.fallback = 1.0;
   lambert_kd.meaning = "directional reflectance";
@@ -39,11 +36,18 @@ std::vector<ModelInfo> make_models() {
 }  // namespace
 
 const std::vector<ModelInfo>& models() {
-  static const std::vector<ModelInfo> all = make_models();
+  static const std::vector<ModelInfo> all = [] {
+    std::vector<ModelInfo> list = thesis_models();
+    for (const auto& family : {empirical_models()}) list.insert(list.end(), family.begin(), family.end());
+    return list;
+  }();
   return all;
 }
 
-const ModelInfo& model(ModelId id) { return models()[static_cast<std::size_t>(id)]; }
+const ModelInfo& model(ModelId id) {
+  const auto found = std::find_if(models().begin(), models().end(), [&](const ModelInfo& info) { return info.id == id; });
+  return *found;  // every id is listed: tests/brdf/models_test.cpp
+}
 
 const ModelInfo& model(std::string_view name) {
   std::string known;
@@ -63,13 +67,11 @@ std::size_t ModelInfo::index_of(std::string_view parameter) const {
   throw input_error("{}: unknown parameter of {}; expected {}", parameter, name, known);
 }
 
-std::string_view ModelSpec::variant() const {
-  switch (form) {
-    case KirchhoffForm::series: return "exact";
-    case KirchhoffForm::rough_limit: return "rough-limit";
-    case KirchhoffForm::smooth_limit: return "smooth-limit";
-  }
-  return "";
+void set_retro(ModelSpec& spec, std::string_view yes_or_no) {
+  if (yes_or_no != "yes" && yes_or_no != "no") throw input_error("retro={}: unknown; expected yes or no", yes_or_no);
+  if (yes_or_no == "yes" && spec.id == ModelId::lambert)
+    throw input_error("retro=yes: {} has no lobe to turn back; expected a model with a lobe", spec.info().name);
+  spec.retro = yes_or_no == "yes";
 }
 
 void set_shadowing(ModelSpec& spec, std::string_view name) {
@@ -80,12 +82,10 @@ void set_shadowing(ModelSpec& spec, std::string_view name) {
 
 void set_variant(ModelSpec& spec, std::string_view name) {
   const auto& known = spec.info().variants;
-  if (std::find(known.begin(), known.end(), name) == known.end())
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found == known.end())
     throw input_error("{}: unknown variant of {}; expected {}", name, spec.info().name, fmt::join(known, ", "));
-  if (spec.id == ModelId::beckmann_kirchhoff)
-    spec.form = name == "exact"         ? KirchhoffForm::series
-                : name == "rough-limit" ? KirchhoffForm::rough_limit
-                                        : KirchhoffForm::smooth_limit;
+  spec.form = static_cast<std::size_t>(found - known.begin());
 }
 
 void check_values(const ModelInfo& info, std::span<const double> values) {

@@ -5,12 +5,15 @@
 #include <string_view>
 #include <vector>
 
-#include "brdf/beckmann_kirchhoff.h"
 #include "surface/shadowing.h"
 
 namespace gonio {
 
-enum class ModelId { lambert, pseudo_realistic, torrance_sparrow, beckmann_kirchhoff };
+enum class ModelId {
+  lambert, pseudo_realistic, torrance_sparrow, beckmann_kirchhoff,
+  lafortune_1997, ashikhmin_shirley_2000, blinn_phong_normalised, low_smooth_2012, low_microfacet_2012, sgd_2012,
+  rough_dielectric
+};
 
 /// A parameter as users see it. [lo, hi] is the documented box, refused outside; [fit_lo, fit_hi] the smaller box the fit
 /// searches, on a logarithmic scale. Without `fallback` the parameter must be given.
@@ -25,7 +28,8 @@ struct ModelInfo {
   ModelId id;
   std::string_view name, summary, formula, source;
   std::vector<ParameterInfo> parameters;  ///< in the order of make_brdf's values
-  std::vector<std::string_view> shadowings, variants;
+  std::vector<std::string_view> shadowings;
+  std::vector<std::string_view> variants;  ///< the first is the default; the order is that of the lobe's own form enum
   bool reciprocal, conserving, bounded_at_grazing, needs_wavelength;
 
   /// Position in `parameters`; InputError naming the model's parameters when unknown.
@@ -41,14 +45,16 @@ const ModelInfo& model(std::string_view name);
 /// A model and the choices that are no numbers.
 struct ModelSpec {
   ModelId id = ModelId::lambert;
-  Shadowing shadowing = Shadowing::smith_correlated;  ///< torrance-sparrow
-  KirchhoffForm form = KirchhoffForm::series;         ///< beckmann-kirchhoff
+  Shadowing shadowing = Shadowing::smith_correlated;  ///< where the model offers the choice
+  std::size_t form = 0;                               ///< position of the variant in info().variants
+  bool retro = false;  ///< the lobe turned back towards the light (i mirrored about the normal)
 
   const ModelInfo& info() const { return model(id); }
-  std::string_view variant() const;
+  std::string_view variant() const { return info().variants[form]; }
 };
 
-/// Sets `shadowing=` or the variant by name; InputError when the model has no such choice.
+/// Sets `shadowing=`, the variant or `retro=` by name; InputError when the model has no such choice.
+void set_retro(ModelSpec& spec, std::string_view yes_or_no);
 void set_shadowing(ModelSpec& spec, std::string_view name);
 void set_variant(ModelSpec& spec, std::string_view name);
 

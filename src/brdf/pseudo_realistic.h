@@ -12,6 +12,7 @@ namespace gonio {
 /// at m = 1 (F = 1, 89°: 1.149), hence the conservation tables. Reciprocal; bounded.
 template <class T>
 struct PseudoRealistic {
+  static constexpr bool kFacets = true, kDiffracts = false;
   T slope_rms;
 
   template <class G>

@@ -11,6 +11,7 @@ namespace gonio {
 /// `none`; reciprocal; finite up to grazing. As alpha → 0 it tends to a mirror's delta.
 template <class T>
 struct TorranceSparrow {
+  static constexpr bool kFacets = true, kDiffracts = false;
   T alpha;
   Shadowing shadowing = Shadowing::smith_correlated;
 

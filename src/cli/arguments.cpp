@@ -57,10 +57,18 @@ std::vector<double> number_list(const std::string& text, std::string_view option
 
 namespace {
 
-/// m and alpha name the same roughness; the models take m.
+/// m and alpha name the same roughness of a Gaussian slope law; alpha sets both of alpha_x and alpha_y.
 void settle_alpha(std::map<std::string, double>& given, const ModelInfo& info) {
   const auto alpha = given.find("alpha");
-  if (alpha == given.end() || info.parameters.front().name != "m") return;
+  if (alpha == given.end()) return;
+  if (info.parameters.front().name == "alpha_x") {
+    if (given.contains("alpha_x") || given.contains("alpha_y"))
+      throw input_error("alpha: given beside alpha_x or alpha_y; expected alpha alone, or alpha_x and alpha_y");
+    given["alpha_x"] = given["alpha_y"] = alpha->second;
+    given.erase("alpha");
+    return;
+  }
+  if (info.parameters.front().name != "m") return;
   if (given.contains("m")) throw input_error("m and alpha: both given; expected exactly one (alpha = sqrt(2) m)");
   given["m"] = alpha->second / std::sqrt(2.0);
   given.erase(alpha);
@@ -97,6 +105,10 @@ ChosenModel choose_model(const ModelArguments& arguments) {
     const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
     if (name == "shadowing") {
       set_shadowing(chosen.spec, value);
+      continue;
+    }
+    if (name == "retro") {
+      set_retro(chosen.spec, value);
       continue;
     }
     if (!given.emplace(name, number_in(value, "--set " + name)).second)

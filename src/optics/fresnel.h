@@ -42,6 +42,13 @@ Polarised<T> fresnel(const T& cos_theta, const T& n, const T& k) {
   return {r_s, r_s * p_difference / p_sum};
 }
 
+/// Schlick's approximation of the unpolarised reflectance (1992, Comput. Graph. Forum 13, 233, eq. (24)).
+template <class T>
+T schlick_fresnel(const T& cos_theta, const T& f0) {
+  const T c = T(1) - cos_theta, c2 = square(c);
+  return f0 + (T(1) - f0) * square(c2) * c;
+}
+
 /// Reflectance at normal incidence, R0.
 template <class T>
 T normal_reflectance(const T& n, const T& k) {
