@@ -1,0 +1,88 @@
+#pragma once
+#include "base/two_terms.h"
+#include "brdf/directions.h"
+#include "surface/normals.h"
+#include "surface/shadowing.h"
+
+namespace gonio {
+
+/// The density of normals, in the order of the model's variants.
+enum class DielectricNormals { ggx, beckmann };
+
+/// A unit vector in the surface's frame; z < 0 is the far side.
+template <class T>
+struct UnitVector {
+  T x, y, z;
+};
+
+/// The generalised half vector of i (near side) and o (far side), H = i + n·o, in factors that lose nothing as n → 1:
+/// with e = ½|i + o|² = 1 + i·o, along the facet normal h that points to the near side,
+///   |H|² = (n-1)² + 2ne, i·h = a/|H|, -o·h = b/|H|, a = ±((n-1) - ne), b = ±((n-1) + e), + for n > 1.
+/// Snell's law at the facet holds by construction, so T = 1 - F has no difference left: a + nb = ±(n²-1),
+/// na + b = ±(n²-1)(1-e), T_s = 4nab/(n²-1)², T_p = T_s/(i·o)².
+template <class T>
+struct RefractingFacet {
+  T a, b, length2, tan2;  ///< a = b = 0: no facet refracts i into o
+  T transmittance;        ///< unpolarised, of the facet
+};
+
+template <class T>
+RefractingFacet<T> refracting_facet(const UnitVector<T>& i, const UnitVector<T>& o, const T& n) {
+  const T m = n - T(1), up = select(m > T(0), T(-1), T(1));
+  const T e = T(0.5) * (square(T(i.x + o.x)) + square(T(i.y + o.y)) + square(T(i.z + o.z)));
+  const T hx = fused(n, o.x, i.x), hy = fused(n, o.y, i.y), hz = up * fused(n, o.z, i.z);
+  const T a = -up * fused(T(-n), e, m), b = -up * (m + e);
+  const auto refracts = a > T(0) && b > T(0) && hz > T(0);
+  const T contrast = select(refracts, T(m * (n + T(1))), T(1)), cosine = select(refracts, T(T(1) - e), T(1));
+  const T t_s = T(4) * n * a * b / square(contrast);
+  RefractingFacet<T> facet;
+  facet.a = select(refracts, a, T(0));
+  facet.b = select(refracts, b, T(0));
+  facet.length2 = select(refracts, T(square(m) + T(2) * n * e), T(1));
+  facet.tan2 = select(refracts, T((square(hx) + square(hy)) / square(hz)), T(0));
+  facet.transmittance = select(refracts, T(T(0.5) * t_s * (T(1) + T(1) / square(cosine))), T(0));
+  return facet;
+}
+
+/// Walter, Marschner, Li & Torrance 2007 (EGSR, doi:10.2312/EGWR/EGSR07/195-206): reflection and refraction by facets that
+/// are dielectric interfaces of relative index n = n_o/n_i (far over near side),
+///   f_r = D(h)·G·F/(4·cos_i·cos_o)                                                            eq. (20)
+///   f_t = |i·h|·|o·h|/(cos_i·|cos_o|)·n²·(1 - F)·G·D(h)/(i·h + n·o·h)²,  h ∥ i + n·o            eq. (21)
+/// f_t is for radiance: n_i²·f_t(i→o) = n_o²·f_t(o→i), and ∫ f_t·|cos_o| dω_o is the energy that passes.
+/// Symbols: alpha roughness, the same to both sides; D GGX (their D) or Beckmann; G = G1(i)·G1(o) of Smith, as there.
+/// Reciprocal, single scattering: R + T <= 1, → 1 as alpha → 0. At n = 1 the transmitted part is a delta and f_t is 0.
+/// Here G1 is exact for both densities (their rational fit for Beckmann is up to 3.1e-3 off).
+template <class T>
+struct RoughDielectric {
+  static constexpr bool kFacets = true, kDiffracts = false;
+  T alpha;
+  DielectricNormals normals = DielectricNormals::ggx;
+
+  T density(const T& tan2_h) const {
+    if (normals == DielectricNormals::beckmann) return beckmann_d(tan2_h, alpha);
+    const T x = alpha * (T(1) + tan2_h) / (square(alpha) + tan2_h);
+    return square(x) / kPi<T>;
+  }
+  /// Smith's masking of one direction; GGX: Λ = (√(1 + α²tan²) - 1)/2.
+  T g1(const T& tan2) const {
+    using std::sqrt;
+    if (normals == DielectricNormals::beckmann) return T(1) / (T(1) + smith_lambda(tan2, alpha));
+    return T(2) / (T(1) + sqrt(T(1) + square(alpha) * tan2));
+  }
+
+  /// Reflection, without R.
+  template <class G>
+  T shape(const Directions<G>& w) const {
+    return density(T(w.tan2_h)) * g1(T(w.tan2_i)) * g1(T(w.tan2_o)) / (T(4) * T(w.cos_i) * T(w.cos_o));
+  }
+
+  /// Refraction from i (z > 0) to o (z < 0), 1/sr, for radiance.
+  T transmission(const UnitVector<T>& i, const UnitVector<T>& o, const T& n) const {
+    const RefractingFacet<T> facet = refracting_facet(i, o, n);
+    const T g = g1((square(i.x) + square(i.y)) / square(i.z)) * g1((square(o.x) + square(o.y)) / square(o.z));
+    return facet.a * facet.b / square(facet.length2) * square(n) * facet.transmittance * density(facet.tan2) * g /
+           (i.z * -o.z);
+  }
+};
+
+}  // namespace gonio
