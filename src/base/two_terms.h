@@ -4,14 +4,6 @@
 
 namespace gonio {
 
-/// a·b + c rounded once where the hardware can; number types of more digits or with derivatives round twice.
-template <class T>
-T fused(const T& a, const T& b, const T& c) {
-  if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
-  else if constexpr (is_lanes_v<T>) return xsimd::fma(a, b, c);
-  else return a * b + c;
-}
-
 /// value + rest, rest the rounding error of value.
 template <class T>
 struct TwoTerms {
@@ -21,7 +13,7 @@ struct TwoTerms {
 template <class T>
 TwoTerms<T> product_of(const T& a, const T& b) {
   const T value = a * b;
-  return {value, fused(a, b, T(-value))};
+  return {value, multiply_add(a, b, T(-value))};
 }
 template <class T>
 TwoTerms<T> product_of(const T& a, const T& b, const T& c) {

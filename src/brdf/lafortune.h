@@ -28,8 +28,7 @@ struct Lafortune {
     using std::exp, std::log, std::log1p;
     const T largest = larger_of(c_z, larger_of(c_x, c_y));
     const T delta = T(0.5) * T(square(w.hx) + square(w.hy) + square(w.cos_i - w.cos_o));
-    const T lean = (c_z - c_x) * T(w.ix) * T(w.ox) + (c_z - c_y) * T(w.iy) * T(w.oy);
-    const T x = ((c_z - largest) - delta * c_z + lean) / largest;
+    const T x = excess(w, T(c_z - largest), delta) / largest;
     const auto low = x < T(-0.5);
     const T s = plain_sum(w) / largest;
     const auto lit = !low || s > T(0);
@@ -40,6 +39,14 @@ struct Lafortune {
   }
 
  private:
+  /// s - max(c), from terms that may cancel next to grazing.
+  template <class G>
+  T excess(const Directions<G>& w, const T& missing, const T& delta) const {
+    TwoTerms<T> sum = sum_of(TwoTerms<T>{missing, T(0)}, product_of(T(-delta), c_z));
+    sum = sum_of(sum, product_of(T(c_z - c_x), T(w.ix), T(w.ox)));
+    sum = sum_of(sum, product_of(T(c_z - c_y), T(w.iy), T(w.oy)));
+    return sum.value + sum.rest;
+  }
   /// c_z·i_z·o_z - c_x·i_x·o_x - c_y·i_y·o_y as if in twice the precision.
   template <class G>
   T plain_sum(const Directions<G>& w) const {

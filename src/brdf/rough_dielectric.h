@@ -30,8 +30,8 @@ template <class T>
 RefractingFacet<T> refracting_facet(const UnitVector<T>& i, const UnitVector<T>& o, const T& n) {
   const T m = n - T(1), up = select(m > T(0), T(-1), T(1));
   const T e = T(0.5) * (square(T(i.x + o.x)) + square(T(i.y + o.y)) + square(T(i.z + o.z)));
-  const T hx = fused(n, o.x, i.x), hy = fused(n, o.y, i.y), hz = up * fused(n, o.z, i.z);
-  const T a = -up * fused(T(-n), e, m), b = -up * (m + e);
+  const T hx = multiply_add(n, o.x, i.x), hy = multiply_add(n, o.y, i.y), hz = up * multiply_add(n, o.z, i.z);
+  const T a = -up * multiply_add(T(-n), e, m), b = -up * (m + e);
   const auto refracts = a > T(0) && b > T(0) && hz > T(0);
   const T contrast = select(refracts, T(m * (n + T(1))), T(1)), cosine = select(refracts, T(T(1) - e), T(1));
   const T t_s = T(4) * n * a * b / square(contrast);
