@@ -72,7 +72,7 @@ std::vector<FitPoint> all_points(const Measurement& scan, const FitResult& resul
   std::vector<FitPoint> points;
   for (const ScanPoint& row : scan.points) {
     FitPoint point;
-    point.directions = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg());
+    point.directions = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg(), row.phi_i_deg);
     const double nm = row.has_wavelength() ? row.wavelength_nm : result.assumed_wavelength_nm.value_or(1000);
     point.wavelength_um = nm * 1e-3;
     point.surface = material.at(nm);

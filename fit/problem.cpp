@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLanes = 4;  // derivatives carried side by side; more parameters take another pass
 using FitJet = Jet<kLanes>;
-constexpr std::size_t kMostParameters = 8;
+constexpr std::size_t kMostParameters = 16;
 
 /// The model at x in number type T: parameters, and n where it is free.
 template <class T>

@@ -5,8 +5,9 @@
 namespace gonio {
 
 /// What a reflection model needs of a pair of directions: i towards the light, o towards the eye, both away from the
-/// surface; h = i + o. Isotropic lobes about the half vector need the scalars alone; the others the components too. Tangents come from components: a cosine near 1 has lost the angle (at alpha = 1e-4: 1e-8
-/// in double, factors in float), so it is never turned back into a sine.
+/// surface; h = i + o. Isotropic lobes about the half vector need the scalars alone; the others the components too.
+/// Tangents come from components: a cosine near 1 has lost the angle (at alpha = 1e-4: 1e-8 in double, factors in float), so
+/// it is never turned back into a sine.
 template <class T>
 struct Directions {
   T cos_i, cos_o;    ///< with the mean normal, > 0
@@ -44,6 +45,12 @@ Directions<T> reduce(const T& ix, const T& iy, const T& iz, const T& ox, const T
 template <class T>
 Directions<T> turned_back(const Directions<T>& w) {
   return reduce(T(-w.ix), T(-w.iy), w.cos_i, w.ox, w.oy, w.cos_o);
+}
+
+/// The pair with light and eye exchanged (Helmholtz).
+template <class T>
+Directions<T> swapped(const Directions<T>& w) {
+  return {w.cos_o, w.cos_i, w.cos_d, w.tan2_h, w.tan2_o, w.tan2_i, w.ox, w.oy, w.ix, w.iy, w.hx, w.hy};
 }
 
 /// Sine and cosine of an angle in degrees, 0 to 90: taken on the side of 45° where nothing is lost.

@@ -13,6 +13,7 @@ inline constexpr ParameterInfo kAlphaX{"alpha_x", "1", "roughness along the grai
 inline constexpr ParameterInfo kAlphaY{"alpha_y", "1", "roughness across the grain (alpha sets both)", 1e-4, 10, 7e-3, 1.4, std::nullopt};
 
 // The list, by family; models() is all of them.
+std::vector<ModelInfo> faceted_models();
 std::vector<ModelInfo> empirical_models();
 
 }  // namespace gonio

@@ -38,7 +38,7 @@ std::vector<ModelInfo> thesis_models() {
 const std::vector<ModelInfo>& models() {
   static const std::vector<ModelInfo> all = [] {
     std::vector<ModelInfo> list = thesis_models();
-    for (const auto& family : {empirical_models()}) list.insert(list.end(), family.begin(), family.end());
+    for (const auto& family : {faceted_models(), empirical_models()}) list.insert(list.end(), family.begin(), family.end());
     return list;
   }();
   return all;
@@ -77,7 +77,11 @@ void set_retro(ModelSpec& spec, std::string_view yes_or_no) {
 void set_shadowing(ModelSpec& spec, std::string_view name) {
   if (spec.info().shadowings.empty())
     throw input_error("shadowing={}: {} has no choice of shadowing; expected none to be given", name, spec.info().name);
-  spec.shadowing = shadowing_from(name);
+  const Shadowing shadowing = shadowing_from(name);
+  const auto& known = spec.info().shadowings;
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw input_error("shadowing={}: {} has no such form; expected {}", name, spec.info().name, fmt::join(known, ", "));
+  spec.shadowing = shadowing;
 }
 
 void set_variant(ModelSpec& spec, std::string_view name) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "base/two_terms.h"
+#include "base/unit_vector.h"
 #include "brdf/directions.h"
 #include "surface/normals.h"
 #include "surface/shadowing.h"
@@ -9,17 +10,11 @@ namespace gonio {
 /// The density of normals, in the order of the model's variants.
 enum class DielectricNormals { ggx, beckmann };
 
-/// A unit vector in the surface's frame; z < 0 is the far side.
-template <class T>
-struct UnitVector {
-  T x, y, z;
-};
-
-/// The generalised half vector of i (near side) and o (far side), H = i + n·o, in factors that lose nothing as n → 1:
-/// with e = ½|i + o|² = 1 + i·o, along the facet normal h that points to the near side,
-///   |H|² = (n-1)² + 2ne, i·h = a/|H|, -o·h = b/|H|, a = ±((n-1) - ne), b = ±((n-1) + e), + for n > 1.
-/// Snell's law at the facet holds by construction, so T = 1 - F has no difference left: a + nb = ±(n²-1),
-/// na + b = ±(n²-1)(1-e), T_s = 4nab/(n²-1)², T_p = T_s/(i·o)².
+/// The generalised half vector of i (near side) and o (far side), H = ±(i + n·o) with H_z > 0, in factors that lose nothing as
+/// n → 1 or where the facet is seen at grazing: components of H, a = i·H and b = -o·H summed with their
+/// rounding errors, |H|² = (n-1)² + 2ne with e = ½|i + o|² = 1 + i·o.
+/// Snell's law at the facet holds by construction, so T = 1 - F has no difference left: a + nb = ∓(n²-1),
+/// na + b = ∓(n²-1)(1-e), T_s = 4nab/(n²-1)², T_p = T_s/(i·o)².
 template <class T>
 struct RefractingFacet {
   T a, b, length2, tan2;  ///< a = b = 0: no facet refracts i into o
@@ -30,8 +25,17 @@ template <class T>
 RefractingFacet<T> refracting_facet(const UnitVector<T>& i, const UnitVector<T>& o, const T& n) {
   const T m = n - T(1), up = select(m > T(0), T(-1), T(1));
   const T e = T(0.5) * (square(T(i.x + o.x)) + square(T(i.y + o.y)) + square(T(i.z + o.z)));
-  const T hx = multiply_add(n, o.x, i.x), hy = multiply_add(n, o.y, i.y), hz = up * multiply_add(n, o.z, i.z);
-  const T a = -up * multiply_add(T(-n), e, m), b = -up * (m + e);
+  const auto component = [&](const T& near, const T& far) {
+    const TwoTerms<T> sum = sum_of(TwoTerms<T>{near, T(0)}, product_of(n, far));
+    return TwoTerms<T>{up * sum.value, up * sum.rest};
+  };
+  const TwoTerms<T> x = component(i.x, o.x), y = component(i.y, o.y), z = component(i.z, o.z);
+  const auto along = [&](const UnitVector<T>& v) {
+    const TwoTerms<T> sum = sum_of(sum_of(product_of(v.x, x.value), product_of(v.y, y.value)), product_of(v.z, z.value));
+    return T(sum.value + (sum.rest + (v.x * x.rest + v.y * y.rest + v.z * z.rest)));
+  };
+  const T hx = x.value + x.rest, hy = y.value + y.rest, hz = z.value + z.rest;
+  const T a = along(i), b = -along(o);
   const auto refracts = a > T(0) && b > T(0) && hz > T(0);
   const T contrast = select(refracts, T(m * (n + T(1))), T(1)), cosine = select(refracts, T(T(1) - e), T(1));
   const T t_s = T(4) * n * a * b / square(contrast);

@@ -5,14 +5,40 @@
 
 namespace gonio {
 
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+/// Beckmann's width of a cosine power of the half vector's angle: cosⁿ = exp(-n·θ²/2 + …).
+double width_of_power(double n) { return std::sqrt(2 / (n + 2)); }
+
+}  // namespace
+
+bool tails_fit_the_sampler(const Lobe<double>& lobe) {
+  return std::holds_alternative<PseudoRealistic<double>>(lobe) || std::holds_alternative<TorranceSparrow<double>>(lobe);
+}
+
 double sampling_alpha(const Lobe<double>& lobe, double wavelength_um) {
-  if (const auto* one = std::get_if<PseudoRealistic<double>>(&lobe)) return std::sqrt(2.0) * one->slope_rms;
-  if (const auto* one = std::get_if<TorranceSparrow<double>>(&lobe)) return one->alpha;
-  if (const auto* one = std::get_if<BeckmannKirchhoff<double>>(&lobe)) {
-    const double diffraction = wavelength_um / (kPi<double> * one->correlation_um);
-    return std::max(2 * one->sigma_um / one->correlation_um, diffraction);
-  }
-  return 1;
+  return std::visit(
+      Overloaded{[](const Lambert&) { return 1.0; }, [](const OrenNayar<double>&) { return 1.0; },
+                 [](const PseudoRealistic<double>& one) { return std::sqrt(2.0) * one.slope_rms; },
+                 [](const TorranceSparrow<double>& one) { return one.alpha; },
+                 [](const RoughDielectric<double>& one) { return one.alpha; },
+                 [&](const BeckmannKirchhoff<double>& one) {
+                   const double diffraction = wavelength_um / (kPi<double> * one.correlation_um);
+                   return std::max(2 * one.sigma_um / one.correlation_um, diffraction);
+                 },
+                 [](const Lafortune<double>& one) { return 0.5 * width_of_power(one.n); },
+                 [](const BlinnPhongNormalised<double>& one) { return width_of_power(one.n); },
+                 [](const AshikhminShirley<double>& one) { return width_of_power(std::sqrt(one.n_u * one.n_v)); },
+                 [](const LowSmooth<double>& one) { return 1 / std::sqrt(1 + 4 * one.b); },
+                 [](const LowMicrofacet<double>& one) { return 1 / std::sqrt(1 + 0.5 * one.b); },
+                 [](const ShiftedGamma<double>& one) { return std::min(1.0, std::sqrt(one.alpha)); },
+                 [](const auto& anisotropic) { return std::sqrt(anisotropic.alpha_x * anisotropic.alpha_y); }},
+      lobe);
 }
 
 std::optional<DirectionSample> sample_visible_normal(double alpha, const LocalDirection& o, double u0, double u1,

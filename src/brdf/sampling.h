@@ -17,6 +17,8 @@ struct DirectionSample {
 
 /// The width with which a lobe is sampled: alpha of the Beckmann density of half vectors that covers it. For
 /// beckmann-kirchhoff at wavelength_um the wider of 2σ/T and the diffraction width λ/(πT).
+/// Whether the lobe falls as fast as the Beckmann density it is sampled with.
+bool tails_fit_the_sampler(const Lobe<double>& lobe);
 double sampling_alpha(const Lobe<double>& lobe, double wavelength_um);
 
 /// Half vectors as the eye sees them: the normals of Beckmann's surface that are visible from o when facets shadow each

@@ -30,6 +30,7 @@ struct EvalArguments {
 struct EvalRow {
   double theta_i_deg, theta_o_deg, phi_deg;
   std::optional<double> wavelength_nm;
+  double phi_i_deg;  ///< from the grain; what anisotropic lobes look at
   const CsvRow* row;
 };
 
@@ -52,10 +53,12 @@ double zenith(std::string_view cell, std::string_view name, const std::string& f
 std::vector<EvalRow> eval_rows(const CsvTable& table, const std::string& file) {
   const int theta_i = column(table, {"theta_i_deg"}, file), theta_o = column(table, {"theta_o_deg", "theta_r_deg"}, file);
   const int phi = column(table, {"phi_deg"}, file), wavelength = column(table, {"wavelength_nm"}, file, false);
+  const int phi_i = column(table, {"phi_i_deg"}, file, false);
   std::vector<EvalRow> rows;
   for (const CsvRow& row : table.rows) {
     EvalRow one{zenith(row.cells[theta_i], "theta_i_deg", file, row.line), zenith(row.cells[theta_o], "theta_o_deg", file, row.line),
-                csv_number(row.cells[phi], "phi_deg", file, row.line), std::nullopt, &row};
+                csv_number(row.cells[phi], "phi_deg", file, row.line), std::nullopt,
+                phi_i >= 0 ? csv_number(row.cells[phi_i], "phi_i_deg", file, row.line) : 0.0, &row};
     if (wavelength >= 0 && !row.cells[wavelength].empty())
       one.wavelength_nm = csv_number(row.cells[wavelength], "wavelength_nm", file, row.line);
     rows.push_back(one);
@@ -83,14 +86,16 @@ EvalResult evaluate_row(const Subject& subject, const EvalRow& row, double wavel
   const ChosenModel& chosen = subject.model;
   const double wavelength_um = wavelength_nm / 1000;
   const Interface<double> surface = subject.surface.at(wavelength_nm);
-  const Directions<double> w = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg);
+  const Directions<double> w = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg, row.phi_i_deg);
   const Brdf<double> brdf = make_brdf<double>(chosen.spec, chosen.values);
   double f;
   if (precision == "float") {
     const auto lanes = spread_brdf<FloatLanes>(chosen.spec, chosen.values);
     f = evaluate(lanes, spread<FloatLanes>(w), spread<FloatLanes>(surface), FloatLanes(float(wavelength_um))).get(0);
   } else if (precision == "reference") {
-    f = reference_evaluate(chosen.spec, chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, surface, wavelength_um).value;
+    f = reference_evaluate(chosen.spec, chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, surface, wavelength_um,
+                           row.phi_i_deg)
+            .value;
   } else {
     f = evaluate(brdf, w, surface, wavelength_um);
   }
@@ -135,7 +140,7 @@ void add_eval(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("eval", "Evaluate a model or a fit: rows of angles in, the same rows + f_r_per_sr out");
   command->footer("Example: printf 'theta_i_deg,theta_o_deg,phi_deg\\n30,40,180\\n' | gonio eval torrance-sparrow --set m=0.2 "
                   "--material Au --at 550\nColumns: theta_i_deg, theta_o_deg (or theta_r_deg), phi_deg = phi_o - phi_i (180: mirror "
-                  "side)[, wavelength_nm].\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.");
+                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm].\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.");
   add_common(*command, common);
   auto arguments = std::make_shared<EvalArguments>();
   arguments->model.add_to(*command);

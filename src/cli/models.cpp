@@ -5,6 +5,7 @@
 
 #include "brdf/models.h"
 #include "cli/commands.h"
+#include "fit/published_parameters.h"
 
 namespace gonio::cli {
 namespace {
@@ -46,15 +47,43 @@ void print_card(const ModelInfo& info) {
              info.needs_wavelength ? "; needs the wavelength" : "");
 }
 
+/// `published`: the tables; `published:TABLE`: its materials.
+void print_published(std::string_view name, bool json) {
+  Json all = Json::array();
+  const auto colon = name.find(':');
+  if (colon == name.npos) {
+    for (const PublishedTable& table : published_tables())
+      all.push_back({{"table", table.name}, {"model", table.model}, {"variant", table.variant}, {"shadowing", table.shadowing}});
+  } else {
+    for (const PublishedFit& fit : read_published(published_table(name.substr(colon + 1)))) {
+      Json one{{"material", fit.material}, {"channel", fit.channel}, {"model", fit.spec.info().name}};
+      for (std::size_t i = 0; i < fit.values.size(); ++i) one[std::string(fit.spec.info().parameters[i].name)] = fit.values[i];
+      if (!fit.surface.perfect) one["n"] = fit.surface.n;
+      all.push_back(one);
+    }
+  }
+  if (json) {
+    std::cout << all.dump(2) << '\n';
+    return;
+  }
+  for (const Json& one : all) {
+    std::string line;
+    for (const auto& [key, value] : one.items()) line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, value.dump());
+    fmt::print("{}\n", line);
+  }
+}
+
 }  // namespace
 
 void add_models(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("models", "Models, parameters with units and ranges, variants, claims");
-  command->footer("Example: gonio models torrance-sparrow");
+  command->footer("Example: gonio models torrance-sparrow\nPublished fits of measured materials: gonio models published, gonio models "
+                  "published:ngan-ward,\nthen gonio eval published:ngan-ward/blue-acrylic/g");
   add_common(*command, common);
   auto name = std::make_shared<std::string>();
   command->add_option("name", *name, "One model only");
   command->callback([&common, name] {
+    if (name->starts_with("published")) return print_published(*name, common.json);
     if (!name->empty()) {
       const ModelInfo& info = model(*name);
       if (common.json) std::cout << describe(info).dump(2) << '\n';

@@ -3,9 +3,22 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "fit/published_parameters.h"
 
 namespace gonio::cli {
 namespace {
+
+constexpr std::string_view kPublished = "published:";
+
+/// A row of a published table brings its parameters and, where F is of an index, that index.
+Subject published_subject(const ModelArguments& model, const SurfaceArguments& surface) {
+  if (!model.settings.empty() || !model.variant.empty() || surface.given())
+    throw input_error("{}: a published row brings its own parameters; expected no --set, --variant, --material, --n", model.model);
+  const PublishedFit fit = published_fit(std::string_view(model.model).substr(kPublished.size()));
+  SurfaceArguments index;
+  if (!fit.surface.perfect) index.n = fit.surface.n;
+  return {{fit.spec, fit.values, {}, {}}, Surface(index), std::nullopt};
+}
 
 bool is_fit_file(const std::string& name) { return name.ends_with(".json"); }
 
@@ -28,6 +41,7 @@ double Subject::wavelength_for(std::optional<double> asked_nm) const {
 }
 
 Subject make_subject(const ModelArguments& model, const SurfaceArguments& surface) {
+  if (model.model.starts_with(kPublished)) return published_subject(model, surface);
   if (!is_fit_file(model.model)) return {choose_model(model), Surface(surface), std::nullopt};
   if (!model.settings.empty() || !model.variant.empty() || surface.given())
     throw input_error("{}: a fit brings its own parameters and material; expected no --set, --variant, --material, --n", model.model);

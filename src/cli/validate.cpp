@@ -25,7 +25,7 @@ struct ValidateArguments {
 std::vector<std::string> bundled_measurements() {
   std::vector<std::string> folders;
   for (const auto& entry : fs::directory_iterator(data_folder("measurements")))
-    if (entry.is_directory()) folders.push_back(entry.path().string());
+    if (fs::exists(entry.path() / "scan.csv")) folders.push_back(entry.path().string());
   std::sort(folders.begin(), folders.end());
   return folders;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
 #include "brdf/sampling.h"
 #include "energy/adaptive.h"
 #include "energy/lobe_spectrum.h"
@@ -34,12 +35,13 @@ class SlopePlane {
 
   /// Tangents of θ_h at which, in the plane of incidence, o meets the horizon and G of the V-cavity has its kinks; at 45°
   /// and 60° these meet each other.
-  std::vector<double> outer_points(double alpha) const {
+  std::vector<double> outer_points(double alpha, bool gaussian) const {
     const double theta_i = std::atan2(sin_i_, cos_i_), right = 0.5 * kPi<double>;
     const double end = std::tan(std::min(0.5 * (right + theta_i), right - 1e-9));
-    const double most = std::min(end, 9 * alpha);  // exp(-81) of the density is left
+    const double most = gaussian ? std::min(end, 9 * alpha) : end;  // exp(-81) of a Gaussian is left
     return breakpoints(0, most, {std::tan(0.5 * (right - theta_i)), std::tan(right - theta_i), std::tan((right - theta_i) / 3),
-                                 std::tan((right + theta_i) / 3), 1.0, std::sqrt(3.0), 0.5 * alpha, 1.5 * alpha, 3 * alpha, 5 * alpha});
+                                 std::tan((right + theta_i) / 3), 1.0, std::sqrt(3.0), 0.5 * alpha, 1.5 * alpha, 3 * alpha, 5 * alpha,
+                                 20 * alpha, 100 * alpha, 1000 * alpha, 4.0, 20.0, 100.0});
   }
 
   /// ∫ over φ at one tan θ_h: R·shape·cos_o·|dω_o/dω_h|·dω_h.
@@ -60,7 +62,9 @@ class SlopePlane {
         return;
       }
       const Directions<double> w{cos_i_, cos_o, cos_d, tan_h * tan_h, (sin_i_ / cos_i_) * (sin_i_ / cos_i_),
-                                 std::max(0.0, (1 - cos_o) * (1 + cos_o)) / (cos_o * cos_o)};
+                                 std::max(0.0, (1 - cos_o) * (1 + cos_o)) / (cos_o * cos_o),
+                                 sin_i_, 0, 2 * cos_d * sin_h * std::cos(phi) - sin_i_, 2 * cos_d * sin_h * std::sin(phi),
+                                 2 * cos_d * sin_h * std::cos(phi), 2 * cos_d * sin_h * std::sin(phi)};
       spectrum_.evaluate(w, 2 * tan_h * cos_h * cos_h * cos_h * 4 * cos_d * cos_o, value);
     };
     const std::vector<double> points = breakpoints(0, horizon, {kink_i, kink_o});
@@ -135,7 +139,7 @@ std::vector<Estimate> reflectance_over_slopes(const Lobe<double>& lobe, double t
                                               double tolerance) {
   const LobeSpectrum spectrum(lobe, surface);
   const double alpha = sampling_alpha(lobe, surface.wavelength_um.back());
-  const std::vector<double> points = SlopePlane(spectrum, theta_i_deg, 1).outer_points(alpha);
+  const std::vector<double> points = SlopePlane(spectrum, theta_i_deg, 1).outer_points(alpha, tails_fit_the_sampler(lobe));
   const SlopePlane plane(spectrum, theta_i_deg, 0.25 * tolerance / (points.back() - points.front()));
   return integrate_plane(plane, points, spectrum.size(), tolerance);
 }
@@ -148,9 +152,25 @@ std::vector<Estimate> reflectance_over_direction_cosines(const Lobe<double>& lob
   return integrate_plane(disc, disc.outer_points(), spectrum.size(), tolerance);
 }
 
+/// The quadrature takes the plane of incidence for one of symmetry and says nothing of the light's azimuth.
+void refuse_anisotropic(const Lobe<double>& lobe) {
+  const bool isotropic = std::visit(
+      []<class L>(const L& one) {
+        if constexpr (requires { one.alpha_x; }) return one.alpha_x == one.alpha_y;
+        else if constexpr (requires { one.n_u; }) return one.n_u == one.n_v;
+        else if constexpr (requires { one.c_x; }) return one.c_x == one.c_y;
+        else return true;
+      },
+      lobe);
+  if (!isotropic)
+    throw input_error("anisotropic lobe: its directional reflectance depends on the light's azimuth; expected the two "
+                      "roughnesses (alpha_x = alpha_y, nu = nv, c_x = c_y) to be equal");
+}
+
 std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
                                               double tolerance) {
   if (std::holds_alternative<Lambert>(lobe)) return std::vector<Estimate>(surface.size());
+  refuse_anisotropic(lobe);
   if (std::holds_alternative<BeckmannKirchhoff<double>>(lobe))
     return reflectance_over_direction_cosines(lobe, theta_i_deg, surface, tolerance);
   return reflectance_over_slopes(lobe, theta_i_deg, surface, tolerance);

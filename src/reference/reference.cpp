@@ -18,15 +18,16 @@ Digits evaluate_in_50(const ModelSpec& spec, std::span<const double> values, con
 }  // namespace
 
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
-                          double phi_deg, const Interface<double>& surface, double wavelength_um) {
-  const auto w = directions_from_deg<Digits50>(Digits50(theta_i_deg), Digits50(theta_o_deg), Digits50(phi_deg));
+                          double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg) {
+  const auto w = directions_from_deg<Digits50>(Digits50(theta_i_deg), Digits50(theta_o_deg), Digits50(phi_deg), Digits50(phi_i_deg));
   return evaluate_in_50(spec, values, w, surface, wavelength_um);
 }
 
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,
                           const Interface<double>& surface, double wavelength_um) {
   const Directions<Digits50> exact{Digits50(w.cos_i),  Digits50(w.cos_o),  Digits50(w.cos_d),
-                                   Digits50(w.tan2_h), Digits50(w.tan2_i), Digits50(w.tan2_o)};
+                                   Digits50(w.tan2_h), Digits50(w.tan2_i), Digits50(w.tan2_o), Digits50(w.ix), Digits50(w.iy),
+                                   Digits50(w.ox),     Digits50(w.oy),     Digits50(w.hx),     Digits50(w.hy)};
   return evaluate_in_50(spec, values, exact, surface, wavelength_um);
 }
 

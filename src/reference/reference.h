@@ -15,7 +15,7 @@ struct Digits {
 
 /// f_r at exactly the doubles given: angles in degrees (zenith < 90), parameters in the model's order, n and k, µm.
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
-                          double phi_deg, const Interface<double>& surface, double wavelength_um);
+                          double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg = 0);
 
 /// The same at directions already reduced (cosines and tangents taken as exact).
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,

@@ -67,7 +67,8 @@ class SurfaceShader {
           f.part[b] += scale * surface_[b].reflectance(cos_d) * lobe_shape(lanes_brdf_.lobe, w, wavelength_um_.part[b]);
       } else {
         const FloatLanes scale(static_cast<float>(brdf_.ks * factor * lobe_shape(brdf_.lobe, w, longest_um_)));
-        for (std::size_t b = 0; b < N; ++b) f.part[b] += scale * surface_[b].reflectance(cos_d);
+        for (std::size_t b = 0; b < N; ++b)
+          f.part[b] += brdf_.facets() ? scale * surface_[b].reflectance(cos_d) : scale;
       }
       return f;
     }
@@ -99,14 +100,14 @@ class SurfaceShader {
   }
 
  private:
-  /// Where the lobe's tails are wider than its sampling density (diffraction), this share of cosine samples bounds the
+  /// Where the lobe's tails are wider than its sampling density (diffraction, GGX, cosine powers), this share of cosine samples bounds the
   /// weights.
   static constexpr double kDefensiveShare = 0.2;
   /// A coherent share below this is lost in the rounding of float radiances.
   static constexpr double kLeastCoherent = 1e-9;
 
   bool has_lobe() const { return !std::holds_alternative<Lambert>(brdf_.lobe) && brdf_.ks > 0; }
-  bool diffracts() const { return std::holds_alternative<BeckmannKirchhoff<double>>(brdf_.lobe); }
+  bool diffracts() const { return brdf_.diffracts(); }
 
   static double mean(std::span<const double> values) {
     double sum = 0;
@@ -124,8 +125,9 @@ class SurfaceShader {
     if (!has_lobe()) return {0, 1};
     const double diffuse = brdf_.kd * (brdf_.diffuse_times_r0() ? mean_r0_ : 1), lobe = brdf_.ks * mean_r0_;
     double cosine = diffuse > 0 ? std::clamp(diffuse / (diffuse + lobe), 0.1, 0.9) : 0;
-    if (!diffracts()) return {0, cosine};
+    if (tails_fit_the_sampler(brdf_.lobe)) return {0, cosine};
     cosine = std::max(cosine, kDefensiveShare);
+    if (!diffracts()) return {0, cosine};
     const double coherent_share = mean_coherent_share(o.z);
     if (coherent_share < kLeastCoherent) return {0, cosine};
     return {std::clamp(lobe * coherent_share / (diffuse + lobe), 0.05, 0.9), cosine};

@@ -1,7 +1,7 @@
 #pragma once
 #include <string_view>
 
-#include "base/number.h"
+#include "base/special.h"
 
 namespace gonio {
 
@@ -22,10 +22,9 @@ T v_cavity(const T& cos_h, const T& cos_i, const T& cos_o, const T& cos_d) {
 ///   Λ = ½ [exp(-a²)/(a√π) - erfc(a)];  Λ → 0 at the normal, → 1/(2a√π) at grazing.
 template <class T>
 T smith_lambda(const T& tan2, const T& alpha) {
-  using std::erfc, std::exp, std::sqrt;
-  // At the normal a is infinite and sqrt(0) has no derivative; from tan² = 1e-30 on Λ is 0 in every number type.
-  const T a = T(1) / (alpha * sqrt(larger_of(tan2, T(1e-30))));
-  return T(0.5) * (exp(-square(a)) / (a * kSqrtPi<T>) - erfc(a));
+  using std::sqrt;
+  // At the normal sqrt(0) has no derivative; from tan² = 1e-30 on Λ is 0 in every number type.
+  return smith_lambda_core(T(alpha * sqrt(larger_of(tan2, T(1e-30)))));
 }
 
 /// Smith's original shadowing function of one direction (1967): S = (1 - ½ erfc a)/(1 + Λ).
