@@ -107,6 +107,12 @@ T smith_lambda_core(const T& s) {
   return Special<T>::smith_lambda_core(s);
 }
 
+/// erfc(1/s), s > 0: 0 at s = 0, whatever the square of 1/s does.
+template <class T>
+T erfc_of_inverse(const T& s) {
+  return fast_exp(T(T(-1) / square(s))) * erfcx(T(T(1) / s));
+}
+
 /// √x and its derivative, both 0 at x <= 0 (a root's slope there is no number).
 template <class T>
 T safe_sqrt(const T& x) {

@@ -15,5 +15,6 @@ inline constexpr ParameterInfo kAlphaY{"alpha_y", "1", "roughness across the gra
 // The list, by family; models() is all of them.
 std::vector<ModelInfo> faceted_models();
 std::vector<ModelInfo> empirical_models();
+std::vector<ModelInfo> classical_models();
 
 }  // namespace gonio

@@ -22,7 +22,8 @@ std::vector<ModelInfo> thesis_models() {
        "Maillot 1996, eq. (31)", {kSlope, kKd, kKs}, {}, exact, true, false, true, false},
       {ModelId::torrance_sparrow, "torrance-sparrow", "Torrance-Sparrow with normalised Beckmann density",
        "f = kd/pi + ks D G F(cos_d)/(4 cos_i cos_o)", "Torrance & Sparrow 1967, doi:10.1364/JOSA.57.001105",
-       {kSlope, kKd, kKs}, {"v-cavity", "smith-separable", "smith-correlated", "smith-1967", "none"}, exact, true, true, true, false},
+       {kSlope, kKd, kKs}, {"v-cavity", "smith-separable", "smith-correlated", "smith-1967", "none"},
+       {"exact", "schlick-f", "schlick-d", "schlick-g", "schlick", "walter-g"}, true, true, true, false},
       {ModelId::beckmann_kirchhoff, "beckmann-kirchhoff", "Beckmann-Kirchhoff diffraction (18a), incoherent part + coherent energy",
        "f = kd/pi + ks R(cos_d) pi T^2 F'^2/(lambda^2 cos_i cos_o) sum_j Pois(j;g)/j exp(-v_xy^2 T^2/(4j))",
        "Beckmann & Spizzichino 1963; Maillot 1996, eq. (18a)",
@@ -38,7 +39,7 @@ std::vector<ModelInfo> thesis_models() {
 const std::vector<ModelInfo>& models() {
   static const std::vector<ModelInfo> all = [] {
     std::vector<ModelInfo> list = thesis_models();
-    for (const auto& family : {faceted_models(), empirical_models()}) list.insert(list.end(), family.begin(), family.end());
+    for (const auto& family : {faceted_models(), classical_models(), empirical_models()}) list.insert(list.end(), family.begin(), family.end());
     return list;
   }();
   return all;
@@ -99,6 +100,14 @@ void check_values(const ModelInfo& info, std::span<const double> values) {
       throw input_error("{}={}: outside the box of {}; expected {} to {} {}", p.name, values[i], info.name, p.lo, p.hi,
                         p.unit == "1" ? "" : p.unit);
   }
+}
+
+void check_values(const ModelSpec& spec, std::span<const double> values) {
+  check_values(spec.info(), values);
+  const bool rational_d = spec.variant() == "schlick-d" || spec.variant() == "schlick";
+  if (rational_d && values[0] > 0.5)
+    throw input_error("m={}: Schlick's D diverges there; expected m up to 0.5 (alpha up to 1/sqrt(2)) with variant {}", values[0],
+                      spec.variant());
 }
 
 }  // namespace gonio

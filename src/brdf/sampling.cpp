@@ -23,13 +23,25 @@ bool tails_fit_the_sampler(const Lobe<double>& lobe) {
 
 double sampling_alpha(const Lobe<double>& lobe, double wavelength_um) {
   return std::visit(
-      Overloaded{[](const Lambert&) { return 1.0; }, [](const OrenNayar<double>&) { return 1.0; },
+      Overloaded{[](const Lambert&) { return 1.0; }, [](const Mirror&) { return 1.0; }, [](const OrenNayar<double>&) { return 1.0; },
                  [](const PseudoRealistic<double>& one) { return std::sqrt(2.0) * one.slope_rms; },
                  [](const TorranceSparrow<double>& one) { return one.alpha; },
                  [](const RoughDielectric<double>& one) { return one.alpha; },
                  [&](const BeckmannKirchhoff<double>& one) {
                    const double diffraction = wavelength_um / (kPi<double> * one.correlation_um);
                    return std::max(2 * one.sigma_um / one.correlation_um, diffraction);
+                 },
+                 [&](const HeTorrance<double>& one) {
+                   return std::max(one.alpha(), wavelength_um / (kPi<double> * one.correlation_um));
+                 },
+                 [](const TrowbridgeReitz<double>& one) { return one.e; },
+                 [](const Blinn<double>& one) {
+                   if (one.density == BlinnDensity::cosine_power) return width_of_power(one.parameter);
+                   return one.density == BlinnDensity::spheroid ? one.parameter : std::min(1.0, 1 / one.parameter);
+                 },
+                 [](const CookTorrance<double>& one) { return one.alpha; },
+                 [](const PhongHighlight<double>& one) {
+                   return (one.highlight == Highlight::half_vector ? 1 : 0.5) * width_of_power(one.n);
                  },
                  [](const Lafortune<double>& one) { return 0.5 * width_of_power(one.n); },
                  [](const BlinnPhongNormalised<double>& one) { return width_of_power(one.n); },

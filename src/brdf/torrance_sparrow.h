@@ -5,6 +5,10 @@
 
 namespace gonio {
 
+/// Exact, or with rational functions in place of parts: Schlick 1992's F, D, G or all three; Walter et al. 2007's G. A rational G
+/// stands for both directions apart (separable), whatever shadowing is named.
+enum class FacetForm { exact, schlick_f, schlick_d, schlick_g, schlick, walter_g };
+
 /// Torrance & Sparrow 1967 (J. Opt. Soc. Am. 57, 1105) with a normalised Beckmann density of normals:
 ///   f = D(h)·G(i, o)·F(cos_d)/(4·cos_i·cos_o);  shape() is the lobe without F.
 /// Symbols: alpha = √2·m > 0 (dimensionless), m slope rms; G by name (Shadowing). Single scattering: E <= 1 for every G but
@@ -14,11 +18,23 @@ struct TorranceSparrow {
   static constexpr bool kFacets = true, kDiffracts = false;
   T alpha;
   Shadowing shadowing = Shadowing::smith_correlated;
+  FacetForm form = FacetForm::exact;
+  bool schlick_fresnel = false;
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    const T g = shadowing_masking<T>(shadowing, w, alpha);
-    return beckmann_d(T(w.tan2_h), alpha) * g / (T(4) * T(w.cos_i) * T(w.cos_o));
+    const bool rational_d = form == FacetForm::schlick_d || form == FacetForm::schlick;
+    const T d = rational_d ? schlick_d(T(w.tan2_h), alpha) : beckmann_d(T(w.tan2_h), alpha);
+    return d * masking(w) / (T(4) * T(w.cos_i) * T(w.cos_o));
+  }
+
+ private:
+  template <class G>
+  T masking(const Directions<G>& w) const {
+    if (form == FacetForm::schlick_g || form == FacetForm::schlick)
+      return schlick_g1(T(w.cos_i), alpha) * schlick_g1(T(w.cos_o), alpha);
+    if (form == FacetForm::walter_g) return walter_g1(T(w.tan2_i), alpha) * walter_g1(T(w.tan2_o), alpha);
+    return shadowing_masking<T>(shadowing, w, alpha);
   }
 };
 

@@ -125,7 +125,7 @@ ChosenModel choose_model(const ModelArguments& arguments) {
                         p.unit == "1" ? "" : p.unit, p.name == "m" ? " or alpha" : "");
     chosen.values.push_back(found == given.end() ? *p.fallback : found->second);
   }
-  check_values(info, chosen.values);
+  check_values(chosen.spec, chosen.values);
   return chosen;
 }
 

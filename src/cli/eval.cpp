@@ -113,7 +113,7 @@ void run_eval(const EvalArguments& arguments, const Common& common) {
 
   Json json_rows = Json::array();
   std::string out = fmt::format("{},f_r_per_sr\n", fmt::join(table.header, ","));
-  const bool delta = subject.model.spec.id == ModelId::beckmann_kirchhoff;
+  const bool delta = has_delta(make_lobe<double>(subject.model.spec, subject.model.values));
   for (const EvalRow& row : rows) {
     const double wavelength_nm = subject.wavelength_for(row.wavelength_nm ? row.wavelength_nm : arguments.at_nm);
     const EvalResult result = evaluate_row(subject, row, wavelength_nm, arguments.precision);

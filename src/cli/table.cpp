@@ -54,7 +54,7 @@ void run_limits(const TableArguments& arguments, Common& common) {
   if (arguments.ks) {
     if (subject.model.spec.id == ModelId::lambert) throw input_error("--ks: lambert has no lobe; expected kd only");
     subject.model.values.back() = *arguments.ks;
-    check_values(subject.model.spec.info(), subject.model.values);
+    check_values(subject.model.spec, subject.model.values);
   }
   const SurfaceSamples samples = sample_surface(subject, arguments.at_nm);
   const std::vector<double> asked =

@@ -120,6 +120,8 @@ double width_in_cosines(const Lobe<double>& lobe, double theta_i_deg, double wav
   if (const auto* one = std::get_if<BeckmannKirchhoff<double>>(&lobe))
     return std::max(wavelength_um / (kPi<double> * one->correlation_um),
                     2 * one->sigma_um / one->correlation_um * foreshortening);
+  if (const auto* he = std::get_if<HeTorrance<double>>(&lobe))
+    return std::max(wavelength_um / (kPi<double> * he->correlation_um), he->alpha() * foreshortening);
   return sampling_alpha(lobe, wavelength_um) * foreshortening;
 }
 
@@ -169,9 +171,9 @@ void refuse_anisotropic(const Lobe<double>& lobe) {
 
 std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
                                               double tolerance) {
-  if (std::holds_alternative<Lambert>(lobe)) return std::vector<Estimate>(surface.size());
+  if (std::holds_alternative<Lambert>(lobe) || std::holds_alternative<Mirror>(lobe)) return std::vector<Estimate>(surface.size());
   refuse_anisotropic(lobe);
-  if (std::holds_alternative<BeckmannKirchhoff<double>>(lobe))
+  if (diffracts(lobe))
     return reflectance_over_direction_cosines(lobe, theta_i_deg, surface, tolerance);
   return reflectance_over_slopes(lobe, theta_i_deg, surface, tolerance);
 }

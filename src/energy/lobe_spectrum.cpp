@@ -13,6 +13,8 @@ constexpr std::size_t kLanes = DoubleLanes::size;
 LobeSpectrum::LobeSpectrum(const Lobe<double>& lobe, const SpectralSurface& surface) : count_(surface.size()), lobe_(lobe) {
   if (const auto* one = std::get_if<BeckmannKirchhoff<double>>(&lobe))
     lanes_lobe_ = BeckmannKirchhoff<DoubleLanes>{DoubleLanes(one->sigma_um), DoubleLanes(one->correlation_um), one->form};
+  if (const auto* one = std::get_if<HeTorrance<double>>(&lobe))
+    lanes_lobe_ = HeTorrance<DoubleLanes>{DoubleLanes(one->sigma0_um), DoubleLanes(one->correlation_um), one->reading};
   for (std::size_t first = 0; first < count_; first += kLanes) {
     std::array<double, kLanes> n, k, wavelength;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -28,11 +30,13 @@ LobeSpectrum::LobeSpectrum(const Lobe<double>& lobe, const SpectralSurface& surf
 }
 
 void LobeSpectrum::evaluate(const Directions<double>& w, double weight, Eigen::Ref<Eigen::ArrayXd> out) const {
-  const bool spectral = std::holds_alternative<BeckmannKirchhoff<DoubleLanes>>(lanes_lobe_);
+  const bool spectral = diffracts(lanes_lobe_);
   const double shape = spectral ? 1 : lobe_shape(lobe_, w, 1.0);
   const Directions<DoubleLanes> lanes = spread<DoubleLanes>(w);
   for (std::size_t block = 0; block < interfaces_.size(); ++block) {
-    DoubleLanes value = interfaces_[block].reflectance(lanes.cos_d) * DoubleLanes(weight * shape);
+    const DoubleLanes reflectance = std::visit(
+        [&](const auto& one) { return facet_reflectance<DoubleLanes>(one, lanes.cos_d, interfaces_[block]); }, lobe_);
+    DoubleLanes value = reflectance * DoubleLanes(weight * shape);
     if (spectral) value *= lobe_shape(lanes_lobe_, lanes, wavelength_um_[block]);
     std::array<double, kLanes> values;
     value.store_unaligned(values.data());

@@ -64,11 +64,11 @@ class SurfaceShader {
       if (diffracts()) {
         const FloatLanes scale(static_cast<float>(brdf_.ks * factor));
         for (std::size_t b = 0; b < N; ++b)
-          f.part[b] += scale * surface_[b].reflectance(cos_d) * lobe_shape(lanes_brdf_.lobe, w, wavelength_um_.part[b]);
+          f.part[b] += scale * reflectance(cos_d, b) * lobe_shape(lanes_brdf_.lobe, w, wavelength_um_.part[b]);
       } else {
         const FloatLanes scale(static_cast<float>(brdf_.ks * factor * lobe_shape(brdf_.lobe, w, longest_um_)));
         for (std::size_t b = 0; b < N; ++b)
-          f.part[b] += brdf_.facets() ? scale * surface_[b].reflectance(cos_d) : scale;
+          f.part[b] += scale * reflectance(cos_d, b);
       }
       return f;
     }
@@ -108,6 +108,7 @@ class SurfaceShader {
 
   bool has_lobe() const { return !std::holds_alternative<Lambert>(brdf_.lobe) && brdf_.ks > 0; }
   bool diffracts() const { return brdf_.diffracts(); }
+  FloatLanes reflectance(const FloatLanes& cos_d, std::size_t b) const { return facet_reflectance(lanes_brdf_.lobe, cos_d, surface_[b]); }
 
   static double mean(std::span<const double> values) {
     double sum = 0;
@@ -127,17 +128,15 @@ class SurfaceShader {
     double cosine = diffuse > 0 ? std::clamp(diffuse / (diffuse + lobe), 0.1, 0.9) : 0;
     if (tails_fit_the_sampler(brdf_.lobe)) return {0, cosine};
     cosine = std::max(cosine, kDefensiveShare);
-    if (!diffracts()) return {0, cosine};
+    if (!has_delta(brdf_.lobe)) return {0, cosine};
     const double coherent_share = mean_coherent_share(o.z);
     if (coherent_share < kLeastCoherent) return {0, cosine};
     return {std::clamp(lobe * coherent_share / (diffuse + lobe), 0.05, 0.9), cosine};
   }
 
   double mean_coherent_share(double cos_o) const {
-    const auto& kirchhoff = std::get<BeckmannKirchhoff<double>>(brdf_.lobe);
-    if (kirchhoff.form != KirchhoffForm::series) return 0;
     double sum = 0;
-    for (const double um : wavelengths_um_) sum += kirchhoff.coherent_share(cos_o, um);
+    for (const double um : wavelengths_um_) sum += coherent_share(brdf_.lobe, cos_o, um);
     return sum / static_cast<double>(wavelengths_um_.size());
   }
 

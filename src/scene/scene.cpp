@@ -95,7 +95,7 @@ void check(const Scene& scene) {
     check_range("ground height", scene.ground->height, -kFarthest, kFarthest);
     check_range("ground radius", scene.ground->radius, 1e-4, kFarthest);
   }
-  for (const SceneMaterial& material : scene.materials) check_values(material.model.info(), material.values);
+  for (const SceneMaterial& material : scene.materials) check_values(material.model, material.values);
 }
 
 Scene validation_scene(SceneMaterial sphere_material, std::vector<double> wavelengths_nm) {

@@ -12,6 +12,16 @@ T beckmann_d(const T& tan2_h, const T& alpha) {
   return exp(-tan2_h / square(alpha)) * square(T(1) + tan2_h) / (kPi<T> * square(alpha));
 }
 
+/// Schlick 1992's rational density for Beckmann's, with its 1/π: (t - 1 + 2α²)³/(8π·t·α⁸), t = cos ζ, 0 below t = 1 - 2α²; meant for
+/// α <= 1/√2 (above, it diverges at grazing half vectors). 1 - t is taken from tan², without cancellation.
+template <class T>
+T schlick_d(const T& tan2_h, const T& alpha) {
+  using std::sqrt;
+  const T root = sqrt(T(1) + tan2_h), fall = tan2_h / (root * (T(1) + root));  // 1 - t
+  const T left = larger_of(T(0), T(T(2) - fall / square(alpha)));
+  return left * square(left) * root / (T(8) * kPi<T> * square(alpha));
+}
+
 /// The thesis's slope law, Maillot 1996 eq. (28): P(ζ) = exp(-tan²ζ/(2m²))/(m √(2π) cos²ζ), a density over the angle ζ in
 /// a plane, not over solid angle.
 template <class T>

@@ -30,9 +30,24 @@ T smith_lambda(const T& tan2, const T& alpha) {
 /// Smith's original shadowing function of one direction (1967): S = (1 - ½ erfc a)/(1 + Λ).
 template <class T>
 T smith_1967(const T& tan2, const T& alpha) {
-  using std::erfc, std::sqrt;
-  const T a = T(1) / (alpha * sqrt(larger_of(tan2, T(1e-30))));
-  return (T(1) - T(0.5) * erfc(a)) / (T(1) + smith_lambda(tan2, alpha));
+  using std::sqrt;
+  const T s = alpha * sqrt(larger_of(tan2, T(1e-30)));
+  return (T(1) - T(0.5) * erfc_of_inverse(s)) / (T(1) + smith_lambda_core(s));
+}
+
+/// Schlick 1992's rational function for smith_1967: v/(v - k·v + k), v = cos θ, k = m·√(2/π) = alpha/√π.
+template <class T>
+T schlick_g1(const T& cosine, const T& alpha) {
+  const T k = alpha / kSqrtPi<T>;
+  return cosine / (cosine - k * cosine + k);
+}
+
+/// Walter et al. 2007, eq. (27): rational function for 1/(1+Λ), a = cot θ/alpha; 1 from a = 1.6 on.
+template <class T>
+T walter_g1(const T& tan2, const T& alpha) {
+  using std::sqrt;
+  const T s = alpha * sqrt(larger_of(tan2, T(1e-30)));  // 1/a
+  return select(s > T(0.625), T((T(3.535) * s + T(2.181)) / (square(s) + T(2.276) * s + T(2.577))), T(1));
 }
 
 /// G of both directions. Separable: G1(i)·G1(o), G1 = 1/(1+Λ); correlated in height: 1/(1 + Λ_i + Λ_o).

@@ -87,7 +87,7 @@ TEST_CASE("Every model is finite, non-negative and reciprocal over its box, graz
             INFO(spec.info().name << " " << values[0] << " at " << ti << " " << to << " " << phi << ": " << f << " " << g);
             REQUIRE(std::isfinite(f));
             REQUIRE(f >= 0);
-            REQUIRE(std::abs(f - g) <= 1e-12 * f);
+            if (spec.info().reciprocal) REQUIRE(std::abs(f - g) <= 1e-12 * f);
             const float fast = evaluate(lanes, spread<FloatLanes>(w), spread<FloatLanes>(kMetal), FloatLanes(float(kUm))).get(0);
             REQUIRE(fast >= 0);
             if (f < 1e30) REQUIRE(std::isfinite(fast));
@@ -209,7 +209,7 @@ TEST_CASE("The sampled density integrates to one minus the share below the horiz
 }
 
 TEST_CASE("What a user may get wrong is refused", "[brdf]") {
-  CHECK_THROWS_AS(model("phong-1975"), InputError);
+  CHECK_THROWS_AS(model("phong-1976"), InputError);
   CHECK_THROWS_AS(model("lambert").index_of("m"), InputError);
   const std::vector<double> nan{std::nan(""), 0, 1}, negative{0.1, -1, 1}, fine{0.1, 0, 1};
   CHECK_THROWS_AS(check_values(model("torrance-sparrow"), nan), InputError);
