@@ -39,7 +39,7 @@ void print_card(const ModelInfo& info) {
     fmt::print("  {:<15} {:<3} [{:g}, {:g}]  {}; {}\n", p.name, p.unit, p.lo, p.hi, p.meaning,
                p.fallback ? fmt::format("default {:g}", *p.fallback) : "no default");
   if (!info.shadowings.empty())
-    fmt::print("  shadowing       {} (default smith-correlated)\n", fmt::join(info.shadowings, ", "));
+    fmt::print("  shadowing       {} (default {})\n", fmt::join(info.shadowings, ", "), name_of(ModelSpec{}.shadowing));
   fmt::print("  variants        {}\n", fmt::join(info.variants, ", "));
   fmt::print("  claims          {}, {}, {}{}\n\n", info.reciprocal ? "reciprocal" : "not reciprocal",
              info.conserving ? "conserving for kd + ks <= 1" : "not conserving by itself (see `gonio table limits`)",

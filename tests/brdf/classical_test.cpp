@@ -112,7 +112,7 @@ TEST_CASE("Rational functions: Schlick's F, D, G and Walter's G stay within what
   CHECK(d_mean < 0.02);
   CHECK(d_max < 0.25);
   CHECK(walter < 4e-3);  // 0.35 % is what the paper states
-  CHECK(schlick < 0.1);
+  CHECK(schlick < 0.26);  // largest near 87° on smooth surfaces: far beyond the mean that the paper quotes
   // As Schlick wrote it, with the cosine.
   const double t = 0.9, a = 0.4;
   CHECK(schlick_d(1 / (t * t) - 1, a) == Approx(std::pow(t - 1 + 2 * a * a, 3) / (8 * kPi<double> * t * std::pow(a, 8))).epsilon(1e-12));
