@@ -23,6 +23,7 @@ void add_materials_value(CLI::App& materials, Common& common);
 void add_materials_plot(CLI::App& materials, Common& common);
 void add_materials_swatch(CLI::App& materials, Common& common);
 void add_fresnel(CLI::App& app, Common& common);
+void add_surface(CLI::App& app, Common& common);
 void add_color(CLI::App& app, Common& common);
 void add_light(CLI::App& app, Common& common);
 void add_models(CLI::App& app, Common& common);

@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   add_materials(app, common);
   add_fresnel(app, common);
+  add_surface(app, common);
   add_color(app, common);
   add_light(app, common);
   add_models(app, common);
