@@ -75,12 +75,22 @@ std::vector<HeightProfile> seen_by_instrument(std::vector<HeightProfile> profile
   return profiles;
 }
 
+/// What is wrong with the heights as a whole is said of the file they came from.
+Roughness roughness_of_file(const std::vector<HeightProfile>& profiles, const std::string& file) {
+  try {
+    return roughness_of(profiles);
+  } catch (const InputError& error) {
+    const std::string_view what = error.what(), prefix = "profile:";
+    throw input_error("{}:{}", file, what.starts_with(prefix) ? what.substr(prefix.size()) : what);
+  }
+}
+
 void run_surface(const SurfaceStatisticsArguments& arguments, const Common& common) {
   const std::vector<double> wavelengths_nm = number_list(arguments.wavelengths, "--wavelengths", 1, 1e6);
   std::vector<HeightProfile> profiles =
       seen_by_instrument(parse_profiles(read_file(arguments.profile), arguments.profile), arguments);
   for (HeightProfile& profile : profiles) profile = detrended(profile, detrend_from(arguments.detrend));
-  const Roughness r = roughness_of(profiles);
+  const Roughness r = roughness_of_file(profiles, arguments.profile);
   const double sigma_um = r.sigma_um.value, step_um = profiles.front().step_um;
   if (!arguments.out.empty()) {
     make_folder(arguments.out);

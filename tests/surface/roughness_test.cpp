@@ -94,5 +94,11 @@ TEST_CASE("gonio surface answers in JSON, and refuses what is no profile with fi
   const Outcome bad = run_gonio({"surface", (folder / "bad.csv").string()});
   CHECK(bad.status == 2);
   CHECK(bad.err.find("bad.csv:") != std::string::npos);
+  std::string flat = "x_um,z_um\n";
+  for (int i = 0; i < 40; ++i) flat += fmt::format("{},1\n", i);
+  write_file(folder / "flat.csv", flat);
+  const Outcome none = run_gonio({"surface", (folder / "flat.csv").string()});
+  CHECK(none.status == 2);
+  CHECK(none.err.find("flat.csv:") != std::string::npos);
   std::filesystem::remove_all(folder);
 }
