@@ -11,6 +11,8 @@ template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;  // clang 14 deduces no aggregates
 
 /// Beckmann's width of a cosine power of the half vector's angle: cosⁿ = exp(-n·θ²/2 + …).
 double width_of_power(double n) { return std::sqrt(2 / (n + 2)); }
