@@ -137,6 +137,11 @@ Dual<T, N> exp(const Dual<T, N>& x) {
   const T e = fast_exp(x.a);
   return chain(x, e, e);
 }
+template <int kPower, class T, int N>
+Dual<T, N> exp_of_decay(const Dual<T, N>& x) {
+  const T e = exp_of_decay<kPower>(x.a);
+  return chain(x, e, e);
+}
 template <class T, int N>
 Dual<T, N> fast_exp(const Dual<T, N>& x) {
   return exp(x);
@@ -200,6 +205,13 @@ struct Special<Dual<T, N>> {
   static Dual<T, N> smith_lambda_core(const Dual<T, N>& s) {
     const T e = fast_exp(T(T(-1) / square(s.a)));
     return chain(s, Special<T>::smith_lambda_core(s.a, e), T(T(0.5) / kSqrtPi<T> * e));
+  }
+  /// d/d(s²) = exp(-1/s²)/(2s√π), nothing where s² → 0.
+  static Ratio<Dual<T, N>> smith_visible(const Dual<T, N>& s2) {
+    using std::sqrt;
+    const T held = larger_of(s2.a, T(1e-30)), inverse = T(1) / held;
+    const T slope = T(0.5) / kSqrtPi<T> * fast_exp(T(-inverse)) * sqrt(inverse);
+    return {chain(s2, Special<T>::smith_visible(s2.a).value(), slope), Dual<T, N>(T(1))};
   }
 };
 

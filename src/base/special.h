@@ -6,11 +6,12 @@
 // division, no exponential. With q(x) = 1/√π - x·erfcx(x):
 //   erfcx(x) = exp(x²)·erfc(x),  erfcx' = -2q,  q > 0, q → 1/(2x²√π):  nothing cancels in a derivative.
 // Measured against 60 digits, x = 1e-8...1e8, 8 lanes of double / 16 of float, largest relative error:
-//   erfcx 8.3e-16 / 3.3e-7, q 1.6e-15 / 6.5e-7, W0 2.8e-16 / 1.5e-7, fast_exp 1.5e-16 / 8.2e-8; Λ beside 1 + Λ 5.3e-16 / 2.5e-7.
+//   erfcx 8.3e-16 / 3.3e-7, q 1.6e-15 / 6.5e-7, W0 2.8e-16 / 1.5e-7, fast_exp 4e-16 / 8.2e-8; Λ beside 1 + Λ 5.3e-16 / 2.5e-7;
+//   1 + 2Λ as a fraction of polynomials, in lanes, 1.8e-14 / 2e-7.
 #include <array>
 #include <cstdint>
 
-#include "base/number.h"
+#include "base/ratio.h"
 #include "base/special_tables.h"
 
 namespace gonio {
@@ -25,35 +26,73 @@ T polynomial(const T& y, const std::array<C, N>& c) {
   return multiply_add(odd, y, even);
 }
 
-/// eˣ. Lanes: x = k·ln 2 + r, |r| <= ln 2/2, Taylor in r to half a last place, k added to the exponent bits; 0 below the
-/// smallest normal number, the largest one's neighbourhood above: never NaN at ±∞. Elsewhere the type's own exp.
-template <class T>
-T fast_exp(const T& x) {
+/// 2^kPower·eˣ for x well below the type's upper end (the exponent of a decay). Lanes: x = k·ln 2 + r, |r| <= ln 2/2, a polynomial
+/// in r, k + kPower added to the exponent bits; never below the smallest normal number, also at -∞. Elsewhere the type's own exp.
+template <int kPower, class T>
+T exp_of_decay(const T& x) {
   if constexpr (is_lanes_v<T>) {
     using S = scalar_t<T>;
     constexpr bool kDouble = sizeof(S) == 8;
     using Bits = std::conditional_t<kDouble, std::int64_t, std::int32_t>;
     using BitLanes = xsimd::batch<Bits, typename T::arch_type>;
     constexpr int kMantissa = kDouble ? 52 : 23;
-    const T low = T(kDouble ? S(-708.39) : S(-87.33)), high = T(kDouble ? S(709.0) : S(88.0));
-    const T clamped = xsimd::min(xsimd::max(x, low), high);
-    const T shift = T(kDouble ? S(6755399441055744.0) : S(12582912.0));  // 1.5·2^mantissa: adding it rounds to an integer
+    const T clamped = larger_of(x, T(S((kDouble ? -708.39 : -87.33) - kPower * 0.69314718055994530942)));
+    // 1.5·2^mantissa: adding it rounds to an integer, and its last bits carry kPower.
+    const T shift = T((kDouble ? S(6755399441055744.0) : S(12582912.0)) + S(kPower));
     const T shifted = multiply_add(clamped, T(S(1.4426950408889634074)), shift), k = shifted - shift;
-    const T ln2_high = T(kDouble ? S(0.693147180369123816490) : S(0.693359375));
-    const T ln2_low = T(kDouble ? S(1.90821492927058770002e-10) : S(-2.12194440e-4));
-    const T r = multiply_add(-k, ln2_low, multiply_add(-k, ln2_high, clamped));
-    constexpr std::array<S, kDouble ? 12 : 6> kTail = [] {  // 1/2!, 1/3!, ...
-      std::array<S, kDouble ? 12 : 6> c{};
-      double factorial = 1;
-      for (int n = 2; n < int(c.size()) + 2; ++n) c[n - 2] = S(1 / (factorial *= n));
-      return c;
+    const T minus_ln2_high = T(kDouble ? S(-0.693147180369123816490) : S(-0.693359375));
+    const T minus_ln2_low = T(kDouble ? S(-1.90821492927058770002e-10) : S(2.12194440e-4));
+    const T r = multiply_add(k, minus_ln2_low, multiply_add(k, minus_ln2_high, clamped));
+    const T tail = [&] {
+      if constexpr (kDouble) return polynomial(r, kExpTail);
+      else return polynomial(r, kExpTailFloat);
     }();
-    const T e = T(S(1)) + multiply_add(r * r, polynomial(r, kTail), r);
-    const BitLanes scaled = xsimd::bitwise_cast<BitLanes>(e) + (xsimd::bitwise_cast<BitLanes>(shifted) << kMantissa);
-    return select(x < low, T(S(0)), xsimd::bitwise_cast<T>(scaled));
+    const T e = multiply_add(r * r, tail, T(T(S(1)) + r));
+    return xsimd::bitwise_cast<T>(xsimd::bitwise_cast<BitLanes>(e) + (xsimd::bitwise_cast<BitLanes>(shifted) << kMantissa));
+  } else {
+    using std::exp;
+    if constexpr (kPower == 0) return exp(x);
+    else return exp(x) * T(scalar_t<T>(std::ldexp(1.0, kPower)));
+  }
+}
+
+/// eˣ. Lanes: 0 below the smallest normal number, the largest one's neighbourhood above: never NaN at ±∞.
+template <class T>
+T fast_exp(const T& x) {
+  if constexpr (is_lanes_v<T>) {
+    using S = scalar_t<T>;
+    constexpr bool kDouble = sizeof(S) == 8;
+    return select(x < T(S(kDouble ? -708.39 : -87.33)), T(S(0)), exp_of_decay<0>(smaller_of(x, T(S(kDouble ? 709.0 : 88.0)))));
   } else {
     using std::exp;
     return exp(x);
+  }
+}
+
+/// ln(1 + x), x >= 0 (lanes: up to the largest number; a few last places). Elsewhere the type's own.
+/// 1 + x = 2ᵏ·m, m in [√½, √2), ln m = 2·atanh((m-1)/(m+1)); what 1 + x lost of a small x goes into m - 1.
+template <class T>
+T fast_log1p(const T& x) {
+  if constexpr (is_lanes_v<T>) {
+    using S = scalar_t<T>;
+    constexpr bool kDouble = sizeof(S) == 8;
+    using Bits = std::conditional_t<kDouble, std::int64_t, std::int32_t>;
+    using BitLanes = xsimd::batch<Bits, typename T::arch_type>;
+    constexpr int kMantissa = kDouble ? 52 : 23;
+    constexpr Bits kRootHalf = kDouble ? Bits(0x3fe6a09e667f3bcd) : Bits(0x3f3504f3);
+    const T whole = T(S(1)) + x, lost = select(x < T(S(1)), T(x - (whole - T(S(1)))), T(S(0)));
+    const BitLanes bits = xsimd::bitwise_cast<BitLanes>(whole), above = bits - BitLanes(kRootHalf);
+    const BitLanes exponent = above >> kMantissa;
+    const T m = xsimd::bitwise_cast<T>(bits - (exponent << kMantissa));
+    const T k = xsimd::to_float(exponent), f = (m - T(S(1))) + lost, t = f / (T(S(2)) + f);
+    const T series = [&] {
+      if constexpr (kDouble) return polynomial(T(t * t), kLogarithm);
+      else return polynomial(T(t * t), kLogarithmFloat);
+    }();
+    return multiply_add(k, T(S(0.69314718055994530942)), T(t * series));
+  } else {
+    using std::log1p;
+    return log1p(x);
   }
 }
 
@@ -81,6 +120,15 @@ struct Special {
 
   /// With v = 1/(1 + K·s) = 1 - K/(a + K): exact where s and Λ are large, and its rounding hidden by exp(-a²) where not.
   static T smith_lambda_core(const T& s) { return smith_lambda_core(s, fast_exp(T(T(-1) / square(s)))); }
+  /// Lanes: E in powers of x = a², with x held where E is √x to the last place that counts. Scalars: from Λ, to the last place.
+  static Ratio<T> smith_visible(const T& s2) {
+    using std::sqrt;
+    if constexpr (!is_lanes_v<T>) return whole(T(T(1) + T(2) * smith_lambda_core(T(sqrt(larger_of(s2, T(1e-30)))))));
+    const T held = larger_of(s2, T(kFloat ? kSmithLeastFloat : kSmithLeast)), s = sqrt(held), x = T(1) / held;
+    if constexpr (kFloat) return {s * polynomial(x, kSmithOverFloat), polynomial(x, kSmithUnderFloat)};
+    else return {s * polynomial(x, kSmithOver), polynomial(x, kSmithUnder)};
+  }
+
   static T smith_lambda_core(const T& s, const T& exp_minus_a2) {
     const T v = T(1) / multiply_add(T(kErfcxScale), s, T(1));
     return T(0.5 / (kErfcxScale * kErfcxScale)) * s * exp_minus_a2 * square(T(1) - v) * scaled_q(multiply_add(T(-2), v, T(1)));
@@ -105,6 +153,14 @@ T erfcx_q(const T& x) {
 template <class T>
 T smith_lambda_core(const T& s) {
   return Special<T>::smith_lambda_core(s);
+}
+
+/// 1 + 2Λ of Gaussian slopes, as a fraction, from s² = alpha²·tan²θ = 1/a² >= 0:
+///   1 + 2Λ = erf(a) + exp(-a²)/(a√π) = s·E(a²),  E even in a and free of cancellation,  d(1 + 2Λ)/ds = exp(-a²)/√π.
+/// Smith's height-correlated G is 2/((1 + 2Λ_i) + (1 + 2Λ_o)): sums of positive terms and no exponential.
+template <class T>
+Ratio<T> smith_visible(const T& s2) {
+  return Special<T>::smith_visible(s2);
 }
 
 /// erfc(1/s), s > 0: 0 at s = 0, whatever the square of 1/s does.

@@ -83,14 +83,24 @@ T facet_reflectance(const Lobe<T>& lobe, const T& cos_d, const Interface<T>& sur
   return std::visit([&](const auto& one) { return facet_reflectance<T>(one, cos_d, surface); }, lobe);
 }
 
+/// A lobe with the reflectance of its facets: sr⁻¹. Factors that come as fractions are divided once.
+template <class T, class L, class G>
+T lobe_value(const L& lobe, const Directions<G>& w, const Interface<T>& surface, const T& wavelength_um) {
+  if constexpr (requires { lobe.shape_fraction(w); } && L::kFacets) {
+    if constexpr (requires { lobe.schlick_fresnel; })
+      if (lobe.schlick_fresnel) return (lobe.shape_fraction(w) * whole(surface.schlick_reflectance(T(w.cos_d)))).value();
+    return (lobe.shape_fraction(w) * surface.reflectance_of_cos2(T(w.cos2_d()))).value();
+  } else {
+    return facet_reflectance<T>(lobe, T(w.cos_d), surface) * shape_of<T>(lobe, w, wavelength_um);
+  }
+}
+
 /// f_r in sr⁻¹ of a pair of directions above the horizon (cosines > 0). Deltas (the coherent part) evaluate to 0 here.
 template <class T, class G>
 T evaluate(const Brdf<T>& brdf, const Directions<G>& given, const Interface<T>& surface, const T& wavelength_um) {
   const Directions<G> w = brdf.retro ? turned_back(given) : given;
   const T rho_d = brdf.diffuse_times_r0() ? surface.r0() : T(1);
-  const T lobe = std::visit(
-      [&](const auto& one) { return T(facet_reflectance<T>(one, T(w.cos_d), surface) * shape_of<T>(one, w, wavelength_um)); },
-      brdf.lobe);
+  const T lobe = std::visit([&](const auto& one) { return lobe_value<T>(one, w, surface, wavelength_um); }, brdf.lobe);
   return brdf.kd * rho_d / kPi<T> + brdf.ks * lobe;
 }
 

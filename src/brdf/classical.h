@@ -72,7 +72,7 @@ struct Blinn {
   T shape(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o);
     const T d = blinn_density(density, T(w.tan2_h), parameter);
-    return factor() * d * v_cavity(T(w.cos_h()), cos_i, cos_o, T(w.cos_d)) / (cos_i * cos_o);
+    return factor() * d * v_cavity(cos_i, cos_o, T(w.cos2_d())).value() / (cos_i * cos_o);
   }
 };
 
@@ -92,7 +92,7 @@ struct CookTorrance {
   template <class G>
   T shape(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o), tan2(w.tan2_h);
-    return law(tan2) * v_cavity(T(w.cos_h()), cos_i, cos_o, T(w.cos_d)) / (kPi<T> * cos_i * cos_o);
+    return law(tan2) * v_cavity(cos_i, cos_o, T(w.cos2_d())).value() / (kPi<T> * cos_i * cos_o);
   }
 
  private:

@@ -18,6 +18,8 @@ struct Directions {
   T hx = T(0), hy = T(0);                        ///< of h = i + o, not normalised
 
   T cos_h() const { return (cos_i + cos_o) / (T(2) * cos_d); }
+  /// cos²θ_d = |i + o|²/4 = (cos_i + cos_o)²·(1 + tan²θ_h)/4, without the root of cos_d.
+  T cos2_d() const { return T(0.25) * square(cos_i + cos_o) * (T(1) + tan2_h); }
 };
 
 /// From unit vectors in the surface's frame (z = mean normal).
@@ -25,13 +27,17 @@ template <class T>
 Directions<T> reduce(const T& ix, const T& iy, const T& iz, const T& ox, const T& oy, const T& oz) {
   using std::sqrt;
   const T hx = ix + ox, hy = iy + oy, hz = iz + oz;
-  const T h_xy2 = square(hx) + square(hy);
+  const T h_xy2 = multiply_add(hx, hx, square(hy)), h_z2 = square(hz), i_z2 = square(iz), o_z2 = square(oz);
+  // One division for three tangents, two in float, whose exponents end before (cos 1e-6)⁶.
+  constexpr bool kFloat = std::is_same_v<scalar_t<T>, float>;
+  const T both = i_z2 * o_z2, inverse = T(1) / (kFloat ? both : T(both * h_z2));
+  const T inverse_both = kFloat ? inverse : T(inverse * h_z2), inverse_h = kFloat ? T(T(1) / h_z2) : T(inverse * both);
   return {iz,
           oz,
-          T(0.5) * sqrt(h_xy2 + square(hz)),  // |i + o| = 2 cos_d
-          h_xy2 / square(hz),
-          (square(ix) + square(iy)) / square(iz),
-          (square(ox) + square(oy)) / square(oz),
+          T(0.5) * sqrt(h_xy2 + h_z2),  // |i + o| = 2 cos_d
+          h_xy2 * inverse_h,
+          multiply_add(ix, ix, square(iy)) * (inverse_both * o_z2),
+          multiply_add(ox, ox, square(oy)) * (inverse_both * i_z2),
           ix,
           iy,
           ox,

@@ -26,21 +26,27 @@ struct Ggx {
   }
 
   template <class G>
+  Ratio<T> shape_fraction(const Directions<G>& w) const {
+    const T cos_i(w.cos_i), cos_o(w.cos_o), inverse_sum = T(1) / (cos_i + cos_o);
+    const T slopes = square(T(w.hx) * inverse_sum / alpha_x) + square(T(w.hy) * inverse_sum / alpha_y);
+    const Ratio<T> d{square(T(1) + T(w.tan2_h)), square(T(1) + slopes) * kPi<T> * alpha_x * alpha_y};
+    return d * masking(w, cos_i, cos_o) * Ratio<T>{T(1), T(4) * cos_i * cos_o};
+  }
+  template <class G>
   T shape(const Directions<G>& w) const {
-    const T cos_i(w.cos_i), cos_o(w.cos_o), cos_sum = cos_i + cos_o;
-    const T slopes = square(T(w.hx) / (alpha_x * cos_sum)) + square(T(w.hy) / (alpha_y * cos_sum));
-    const T d = square((T(1) + T(w.tan2_h)) / (T(1) + slopes)) / (kPi<T> * alpha_x * alpha_y);
-    return d * masking(w, cos_i, cos_o) / (T(4) * cos_i * cos_o);
+    return shape_fraction(w).value();
   }
 
  private:
+  /// 1 + 2Λ = √(1 + α²tan²θ).
   template <class G>
-  T masking(const Directions<G>& w, const T& cos_i, const T& cos_o) const {
-    if (shadowing == Shadowing::none) return T(1);
-    if (shadowing == Shadowing::v_cavity) return v_cavity(T(w.cos_h()), cos_i, cos_o, T(w.cos_d));
-    const T l_i = lambda(stretched(T(w.ix), T(w.iy), cos_i)), l_o = lambda(stretched(T(w.ox), T(w.oy), cos_o));
-    if (shadowing == Shadowing::smith_separable) return T(1) / ((T(1) + l_i) * (T(1) + l_o));
-    return T(1) / (T(1) + l_i + l_o);
+  Ratio<T> masking(const Directions<G>& w, const T& cos_i, const T& cos_o) const {
+    using std::sqrt;
+    if (shadowing == Shadowing::none) return whole(T(1));
+    if (shadowing == Shadowing::v_cavity) return v_cavity(cos_i, cos_o, T(w.cos2_d()));
+    const T i = sqrt(T(1) + stretched(T(w.ix), T(w.iy), cos_i)), o = sqrt(T(1) + stretched(T(w.ox), T(w.oy), cos_o));
+    if (shadowing == Shadowing::smith_separable) return {T(4), (T(1) + i) * (T(1) + o)};
+    return {T(2), i + o};
   }
 };
 

@@ -43,7 +43,7 @@ struct LowMicrofacet {
     const T t = T(w.tan2_h);
     const T one_minus_cos = t / ((T(1) + t) + sqrt(T(1) + t));  // 1 - 1/√(1+t)
     const T cos_i = T(w.cos_i), cos_o = T(w.cos_o);
-    const T g = v_cavity(T(w.cos_h()), cos_i, cos_o, T(w.cos_d));
+    const T g = v_cavity(cos_i, cos_o, T(w.cos2_d())).value();
     const T divisor = scale == LowScale::tables ? kPi<T> : T(1);
     return a * exp(-c * log1p(b * one_minus_cos)) * g / (divisor * cos_i * cos_o);
   }

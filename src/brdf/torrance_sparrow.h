@@ -5,12 +5,14 @@
 
 namespace gonio {
 
-/// Exact, or with rational functions in place of parts: Schlick 1992's F, D, G or all three; Walter et al. 2007's G. A rational G
-/// stands for both directions apart (separable), whatever shadowing is named.
-enum class FacetForm { exact, schlick_f, schlick_d, schlick_g, schlick, walter_g };
+/// Exact (1 + 2Λ as a fraction of polynomials: base/special.h), or with other functions in place of parts: Schlick 1992's F, D, G
+/// or all three; Walter et al. 2007's G; Λ from erfcx, to the last place; Λ as Smith prints it, exp and erfc, which cancel where
+/// Λ is small. A rational G1 stands for both directions apart (separable), whatever shadowing is named; erfcx and erfc for
+/// the Smith form that is named.
+enum class FacetForm { exact, schlick_f, schlick_d, schlick_g, schlick, walter_g, erfcx, erfc };
 
 /// Torrance & Sparrow 1967 (J. Opt. Soc. Am. 57, 1105) with a normalised Beckmann density of normals:
-///   f = D(h)·G(i, o)·F(cos_d)/(4·cos_i·cos_o);  shape() is the lobe without F.
+///   f = D(h)·G(i, o)·F(cos_d)/(4·cos_i·cos_o);  shape() is the lobe without F, shape_fraction() before its division.
 /// Symbols: alpha = √2·m > 0 (dimensionless), m slope rms; G by name (Shadowing). Single scattering: E <= 1 for every G but
 /// `none`; reciprocal; finite up to grazing. As alpha → 0 it tends to a mirror's delta.
 template <class T>
@@ -22,18 +24,33 @@ struct TorranceSparrow {
   bool schlick_fresnel = false;
 
   template <class G>
-  T shape(const Directions<G>& w) const {
+  Ratio<T> shape_fraction(const Directions<G>& w) const {
     const bool rational_d = form == FacetForm::schlick_d || form == FacetForm::schlick;
-    const T d = rational_d ? schlick_d(T(w.tan2_h), alpha) : beckmann_d(T(w.tan2_h), alpha);
-    return d * masking(w) / (T(4) * T(w.cos_i) * T(w.cos_o));
+    const Ratio<T> d = rational_d ? whole(schlick_d(T(w.tan2_h), alpha)) : beckmann_fraction(T(w.tan2_h), alpha);
+    return d * masking(w) * Ratio<T>{T(1), T(4) * T(w.cos_i) * T(w.cos_o)};
+  }
+  template <class G>
+  T shape(const Directions<G>& w) const {
+    return shape_fraction(w).value();
   }
 
  private:
   template <class G>
-  T masking(const Directions<G>& w) const {
-    if (form == FacetForm::schlick_g || form == FacetForm::schlick)
-      return schlick_g1(T(w.cos_i), alpha) * schlick_g1(T(w.cos_o), alpha);
-    if (form == FacetForm::walter_g) return walter_g1(T(w.tan2_i), alpha) * walter_g1(T(w.tan2_o), alpha);
+  Ratio<T> masking(const Directions<G>& w) const {
+    switch (form) {
+      case FacetForm::schlick_g:
+      case FacetForm::schlick: return whole(T(schlick_g1(T(w.cos_i), alpha) * schlick_g1(T(w.cos_o), alpha)));
+      case FacetForm::walter_g: return whole(T(walter_g1(T(w.tan2_i), alpha) * walter_g1(T(w.tan2_o), alpha)));
+      case FacetForm::erfcx:
+      case FacetForm::erfc: return from_lambda(lambda(T(w.tan2_i)), lambda(T(w.tan2_o)), w);
+      default: return shadowing_masking<T>(shadowing, w, alpha);
+    }
+  }
+  T lambda(const T& tan2) const { return form == FacetForm::erfc ? smith_lambda_as_printed(tan2, alpha) : smith_lambda(tan2, alpha); }
+  template <class G>
+  Ratio<T> from_lambda(const T& i, const T& o, const Directions<G>& w) const {
+    if (shadowing == Shadowing::smith_correlated) return {T(1), T(1) + i + o};
+    if (shadowing == Shadowing::smith_separable) return {T(1), (T(1) + i) * (T(1) + o)};
     return shadowing_masking<T>(shadowing, w, alpha);
   }
 };

@@ -1,5 +1,5 @@
 #pragma once
-#include "base/number.h"
+#include "base/ratio.h"
 
 namespace gonio {
 
@@ -10,36 +10,59 @@ struct Polarised {
   T unpolarised() const { return T(0.5) * (s + p); }
 };
 
-/// Fresnel's reflectance of an interface with complex index n + ik (k >= 0) relative to the incident medium.
-///
-/// Maillot 1996, §I.1.3, eq. (5) with a², b² (Ditchburn's form), written so that nothing cancels:
-///   s² = (1-c)(1+c), t = (n-1)(n+1) - k² + c², q = √(t² + 4n²k²),
-///   a² = (q+t)/2, b² = (q-t)/2 (the larger from its root, the other from a·b = n·k),
-///   R_s = (q - 2ac + c²)/(q + 2ac + c²),  R_p = R_s·(q·c² - 2ac·s² + s⁴)/(q·c² + 2ac·s² + s⁴).
-/// The numerators are taken as sums of squares, (a-c)² + b² and (ac-s²)² + b²c², and near index match
-///   a - c = ((n-1)(n+1) - k² + b²)/(a + c).
-/// Domain: 0 <= cos_theta <= 1, n > 0, k >= 0; covers k = 0, weak absorption and total reflection (n < 1).
-/// At grazing incidence R = 1; at normal incidence R = ((n-1)²+k²)/((n+1)²+k²).
+/// What Fresnel's formulas take from the index N = n + ik and from the angle. With c = cos θ, w = a + ib = √(N² - sin²θ):
+///   w² = t + 2ink,  t = (n-1)(n+1) - k² + c²,  q = |w²| = √(t² + 4n²k²) = a² + b²,
+/// the larger of a, b from its root u = (q + |t|)/2, the other from a·b = n·k.
+template <class T>
+struct FresnelTerms {
+  T q, t, u;        ///< u = max(a², b²)
+  T two_a_c;        ///< 2·a·c
+  T contrast2;      ///< |N² - 1|²
+  T s_sum, p_sum;   ///< |c + w|² and q·c² + 2ac·s² + s⁴
+  T p_even;         ///< q·c² + s⁴
+};
+
+template <class T>
+FresnelTerms<T> fresnel_terms(const T& cos2, const T& n, const T& k) {
+  using std::abs, std::sqrt;
+  const T nk = n * k, four_n2k2 = T(4) * square(nk), contrast = (n - T(1)) * (n + T(1)) - square(k);
+  FresnelTerms<T> f;
+  const T s2 = T(1) - cos2;
+  f.contrast2 = square(contrast) + four_n2k2;
+  f.t = contrast + cos2;
+  f.q = sqrt(larger_of(multiply_add(f.t, f.t, four_n2k2), T(1e-36)));  // its root has no derivative at 0
+  f.u = T(0.5) * (f.q + abs(f.t));
+  f.two_a_c = T(2) * select(f.t >= T(0), f.u, nk) * sqrt(larger_of(T(cos2 / f.u), T(1e-36)));
+  f.p_even = multiply_add(f.q, cos2, square(s2));
+  f.s_sum = f.q + f.two_a_c + cos2;
+  f.p_sum = multiply_add(f.two_a_c, s2, f.p_even);
+  return f;
+}
+
+/// Unpolarised reflectance of an interface with complex index n + ik (k >= 0) relative to the incident medium, as a
+/// function of cos²θ. Maillot 1996, §I.1.3, eq. (5), from the amplitude r_s = (c - w)/(c + w) = (1 - N²)/(c + w)², so that
+///   R_s = |N² - 1|²/|c + w|⁴,  R = R_s·(q·c² + s⁴)/(q·c² + 2ac·s² + s⁴):
+/// sums of positive terms, also near index match, in total reflection and with weak absorption. Next to the critical angle R
+/// is ill-conditioned by nature.
+/// Domain: 0 <= cos²θ <= 1, n > 0, k >= 0. At grazing incidence R = 1; at normal incidence ((n-1)²+k²)/((n+1)²+k²).
+template <class T>
+Ratio<T> unpolarised_reflectance(const T& cos2, const T& n, const T& k) {
+  const FresnelTerms<T> f = fresnel_terms(cos2, n, k);
+  return {f.contrast2 * f.p_even, square(f.s_sum) * f.p_sum};
+}
+
+/// The same for each polarisation: R_p = R_s·((ac - s²)² + b²c²)/(q·c² + 2ac·s² + s⁴), whose numerator is a sum of squares.
+/// At c = 0 both are 1, but for n = 1, k = 0, where there is no boundary.
 template <class T>
 Polarised<T> fresnel(const T& cos_theta, const T& n, const T& k) {
-  using std::abs, std::sqrt;
+  using std::sqrt;
   const T& c = cos_theta;
-  const T s2 = (T(1) - c) * (T(1) + c);
-  const T t = (n - T(1)) * (n + T(1)) - square(k) + square(c);
-  const T nk = n * k;
-  const T q = sqrt(square(t) + T(4) * square(nk));
-  const T larger = sqrt(T(0.5) * (q + abs(t)));
-  const T smaller = select(larger > T(0), nk / select(larger > T(0), larger, T(1)), T(0));
-  const T a = select(t >= T(0), larger, smaller), b = select(t >= T(0), smaller, larger);
-  const T contrast = (n - T(1)) * (n + T(1)), a_plus_c = a + c;
-  const T a_minus_c = select(square(k) < abs(contrast) && a_plus_c > T(0),
-                             (contrast - square(k) + square(b)) / select(a_plus_c > T(0), a_plus_c, T(1)), a - c);
-  const T cross = T(2) * a * c;
-  const T s_sum = q + cross + square(c);
-  const T r_s = select(s_sum > T(0), (square(a_minus_c) + square(b)) / select(s_sum > T(0), s_sum, T(1)), T(1));
-  const T p_sum = q * square(c) + cross * s2 + square(s2);
-  const T p_difference = square(a * c - s2) + square(b * c);
-  return {r_s, r_s * p_difference / p_sum};
+  const T cos2 = square(c), s2 = (T(1) - c) * (T(1) + c);
+  const FresnelTerms<T> f = fresnel_terms(cos2, n, k);
+  const T root = sqrt(f.u), other = n * k / root;
+  const T a = select(f.t >= T(0), root, other), b = select(f.t >= T(0), other, root);
+  const T r_s = f.contrast2 / square(f.s_sum);
+  return {r_s, r_s * (square(a * c - s2) + square(b * c)) / f.p_sum};
 }
 
 /// Schlick's approximation of the unpolarised reflectance (1992, Comput. Graph. Forum 13, 233, eq. (24)).

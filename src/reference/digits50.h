@@ -40,6 +40,11 @@ struct Special<Digits50> {
     if (w > 1000) return Digits50(Wide(-tail(w, 1)));
     return Digits50(Wide(1 / sqrt(boost::math::constants::pi<Wide>()) - w * exp(Wide(w * w)) * erfc(w)));
   }
+  static Ratio<Digits50> smith_visible(const Digits50& s2) {
+    if (s2 < 1e-6) return {1, 1};  // to 1e-400000
+    const Digits50 a = 1 / sqrt(s2), slope = exp(Digits50(-a * a)) / (a * kSqrtPi<Digits50>);
+    return {Digits50(erf(a) + slope), 1};
+  }
   static Digits50 smith_lambda_core(const Digits50& s) {
     const Digits50 a = 1 / s;
     return a > 1000 ? Digits50(0) : Digits50(s * exp(Digits50(-a * a)) * erfcx_q(a) / 2);

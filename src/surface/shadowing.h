@@ -12,10 +12,11 @@ std::string_view name_of(Shadowing shadowing);
 /// InputError for an unknown name.
 Shadowing shadowing_from(std::string_view name);
 
-/// V-cavity (Torrance & Sparrow 1967, Blinn 1977): G = min(1, 2 n·h n·i / i·h, 2 n·h n·o / o·h).
+/// V-cavity (Torrance & Sparrow 1967, Blinn 1977): G = min(1, 2 n·h n·i / i·h, 2 n·h n·o / o·h), as a fraction without a root:
+/// 2 n·h/cos_d = (cos_i + cos_o)/cos²_d.
 template <class T>
-T v_cavity(const T& cos_h, const T& cos_i, const T& cos_o, const T& cos_d) {
-  return smaller_of(T(1), T(2) * cos_h * smaller_of(cos_i, cos_o) / cos_d);
+Ratio<T> v_cavity(const T& cos_i, const T& cos_o, const T& cos2_d) {
+  return {smaller_of(cos2_d, T((cos_i + cos_o) * smaller_of(cos_i, cos_o))), cos2_d};
 }
 
 /// Smith's Λ for Gaussian slopes (Smith 1967 eq. 20-24 as in Heitz 2014), a = cot θ / alpha:
@@ -25,6 +26,14 @@ T smith_lambda(const T& tan2, const T& alpha) {
   using std::sqrt;
   // At the normal sqrt(0) has no derivative; from tan² = 1e-30 on Λ is 0 in every number type.
   return smith_lambda_core(T(alpha * sqrt(larger_of(tan2, T(1e-30)))));
+}
+
+/// The same as it is printed, with exp and erfc: relative error of Λ grows as 1/Λ beyond a = 2, harmless beside 1 + Λ.
+template <class T>
+T smith_lambda_as_printed(const T& tan2, const T& alpha) {
+  using std::erfc, std::exp, std::sqrt;
+  const T a = T(1) / (alpha * sqrt(larger_of(tan2, T(1e-30))));
+  return larger_of(T(0), T(T(0.5) * (exp(-square(a)) / (a * kSqrtPi<T>) - erfc(a))));
 }
 
 /// Smith's original shadowing function of one direction (1967): S = (1 - ½ erfc a)/(1 + Λ).
@@ -50,19 +59,25 @@ T walter_g1(const T& tan2, const T& alpha) {
   return select(s > T(0.625), T((T(3.535) * s + T(2.181)) / (square(s) + T(2.276) * s + T(2.577))), T(1));
 }
 
-/// G of both directions. Separable: G1(i)·G1(o), G1 = 1/(1+Λ); correlated in height: 1/(1 + Λ_i + Λ_o).
+/// G of both directions, w a pair of directions (brdf/directions.h). Separable: G1(i)·G1(o), G1 = 1/(1+Λ) = 2/(1 + (1+2Λ));
+/// correlated in height: 1/(1 + Λ_i + Λ_o) = 2/((1+2Λ_i) + (1+2Λ_o)).
 template <class T, class Pair>
-T shadowing_masking(Shadowing shadowing, const Pair& w, const T& alpha) {
+Ratio<T> shadowing_masking(Shadowing shadowing, const Pair& w, const T& alpha) {
+  const T alpha2 = square(alpha);
   switch (shadowing) {
-    case Shadowing::none: return T(1);
-    case Shadowing::v_cavity: return v_cavity(T(w.cos_h()), T(w.cos_i), T(w.cos_o), T(w.cos_d));
-    case Shadowing::smith_separable:
-      return T(1) / ((T(1) + smith_lambda(T(w.tan2_i), alpha)) * (T(1) + smith_lambda(T(w.tan2_o), alpha)));
-    case Shadowing::smith_correlated:
-      return T(1) / (T(1) + smith_lambda(T(w.tan2_i), alpha) + smith_lambda(T(w.tan2_o), alpha));
-    case Shadowing::smith_1967: return smith_1967(T(w.tan2_i), alpha) * smith_1967(T(w.tan2_o), alpha);
+    case Shadowing::none: return whole(T(1));
+    case Shadowing::v_cavity: return v_cavity(T(w.cos_i), T(w.cos_o), T(w.cos2_d()));
+    case Shadowing::smith_separable: {
+      const Ratio<T> i = smith_visible(T(alpha2 * T(w.tan2_i))), o = smith_visible(T(alpha2 * T(w.tan2_o)));
+      return {T(4) * i.under * o.under, (i.under + i.over) * (o.under + o.over)};
+    }
+    case Shadowing::smith_correlated: {
+      const Ratio<T> i = smith_visible(T(alpha2 * T(w.tan2_i))), o = smith_visible(T(alpha2 * T(w.tan2_o)));
+      return {T(2) * i.under * o.under, multiply_add(i.over, o.under, T(o.over * i.under))};
+    }
+    case Shadowing::smith_1967: return whole(T(smith_1967(T(w.tan2_i), alpha) * smith_1967(T(w.tan2_o), alpha)));
   }
-  return T(1);
+  return whole(T(1));
 }
 
 }  // namespace gonio
