@@ -12,6 +12,8 @@ struct Interface {
 
   /// Unpolarised reflectance at the local angle of incidence (cos_d between a direction and the facet's normal).
   T reflectance(const T& cos_d) const { return perfect ? T(1) : fresnel(cos_d, n, k).unpolarised(); }
+  /// For light polarised in, or across, the plane of incidence of the facet.
+  Polarised<T> polarised(const T& cos_d) const { return perfect ? Polarised<T>{T(1), T(1)} : fresnel(cos_d, n, k); }
   /// Schlick 1992: f0 + (1 - f0)(1 - cos_d)^5, f0 = R0.
   T schlick_reflectance(const T& cos_d) const { return perfect ? T(1) : schlick_fresnel(cos_d, r0()); }
   /// At normal incidence.
