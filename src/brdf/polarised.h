@@ -64,9 +64,9 @@ FacetTurn<T> facet_turn(const Directions<T>& w, const Azimuth<T>& azimuth) {
           sines - (T(1) - cosines) * azimuth.cos_phi(), (w.cos_i - w.cos_o) * azimuth.sin_phi};
 }
 
-/// Mueller matrix of the facet, divided by its m11. (R = 0 leaves the limit of a contrast that vanishes.)
+/// The facet's Jones matrix but for a factor; never 0.
 template <class T, class G>
-Mueller<T> facet_polarisation(const Directions<G>& w, const Azimuth<G>& azimuth, const Interface<T>& surface) {
+Jones<T> facet_jones(const Directions<G>& w, const Azimuth<G>& azimuth, const Interface<T>& surface) {
   const FacetTurn<G> turn = facet_turn(w, azimuth);
   const T cos_d(w.cos_d), sum_cos(turn.sum_cos), sum_sin(turn.sum_sin);
   // A perfect conductor has r_p = -r_s: the difference drops out.
@@ -74,24 +74,30 @@ Mueller<T> facet_polarisation(const Directions<G>& w, const Azimuth<G>& azimuth,
   const Complex<T> root = surface.perfect ? Complex<T>{T(1), T(0)} : refracted_root(cos_d, surface.n, surface.k);
   const Complex<T> u = T(T(1) / cos_d) * root;
   const T difference_cos = still * T(turn.difference_cos), difference_sin = still * T(turn.difference_sin);
-  const Jones<T> j{{u.re * sum_cos + difference_cos, u.im * sum_cos},
-                   {u.re * sum_sin + difference_sin, u.im * sum_sin},
-                   {u.re * sum_sin - difference_sin, u.im * sum_sin},
-                   {difference_cos - u.re * sum_cos, -u.im * sum_cos}};
-  const Mueller<T> mueller = mueller_of(j);
-  return T(T(1) / mueller.m[0][0]) * mueller;
+  return {{u.re * sum_cos + difference_cos, u.im * sum_cos},
+          {u.re * sum_sin + difference_sin, u.im * sum_sin},
+          {u.re * sum_sin - difference_sin, u.im * sum_sin},
+          {difference_cos - u.re * sum_cos, -u.im * sum_cos}};
 }
 
-/// The same for light that the facet refracts into o below the surface (w.cos_o < 0). t_s : t_p = -(i·o) : 1 (Snell's law at the
-/// facet), so that J ∝ [difference] - [sum] whatever the index:
-///   [S_i·S_o + C_i·C_o·cos φ, -C_o·sin φ; -C_i·sin φ, -cos φ].
+/// The same for light that a facet refracts from i into o below the surface (o.z < 0). t_s : t_p = -(i·o) : 1 (Snell's law at
+/// the facet), so that J ∝ [difference] - [sum] whatever the index.
 template <class T>
-Mueller<T> refracted_polarisation(const UnitVector<T>& i, const UnitVector<T>& o, const Azimuth<T>& azimuth) {
+Jones<T> refraction_jones(const UnitVector<T>& i, const UnitVector<T>& o, const Azimuth<T>& azimuth) {
   const T sines = safe_sqrt(T((square(i.x) + square(i.y)) * (square(o.x) + square(o.y)))), cos_phi = azimuth.cos_phi();
   const auto real = [](const T& x) { return Complex<T>{x, T(0)}; };
-  const Mueller<T> mueller = mueller_of(Jones<T>{real(T(sines + i.z * o.z * cos_phi)), real(T(-o.z * azimuth.sin_phi)),
-                                                 real(T(-i.z * azimuth.sin_phi)), real(T(-cos_phi))});
+  return {real(T(sines + i.z * o.z * cos_phi)), real(T(-o.z * azimuth.sin_phi)), real(T(-i.z * azimuth.sin_phi)), real(T(-cos_phi))};
+}
+
+/// Mueller matrix divided by its m11. (Where R = 0 for want of a contrast it is the limit as the contrast vanishes.)
+template <class T>
+Mueller<T> normalised_mueller(const Jones<T>& jones) {
+  const Mueller<T> mueller = mueller_of(jones);
   return T(T(1) / mueller.m[0][0]) * mueller;
+}
+template <class T, class G>
+Mueller<T> facet_polarisation(const Directions<G>& w, const Azimuth<G>& azimuth, const Interface<T>& surface) {
+  return normalised_mueller(facet_jones(w, azimuth, surface));
 }
 
 /// Whether the model says what becomes of polarisation.
@@ -111,6 +117,16 @@ Mueller<T> evaluate_mueller(const Brdf<T>& brdf, const Directions<G>& w, const A
   Mueller<T> f = lobe * (brdf.facets() ? facet_polarisation(w, azimuth, surface) : depolariser<T>());
   f.m[0][0] = evaluate_diffuse(brdf, surface) + lobe;
   return f;
+}
+
+/// f_r in sr⁻¹ of linearly polarised light, received in any polarisation: m11 + m12·cos 2α + m13·sin 2α of the above.
+template <class T, class G>
+T evaluate_linear(const Brdf<T>& brdf, const Directions<G>& w, const Azimuth<G>& azimuth, const Interface<T>& surface,
+                  const T& wavelength_um, const LinearLight<T>& light, const T& lobe_per_sr = T(0)) {
+  const T lobe = evaluate_lobe(brdf, w, surface, wavelength_um) + lobe_per_sr;
+  if (!brdf.facets()) return evaluate_diffuse(brdf, surface) + lobe;
+  const Jones<T> jones = facet_jones(w, azimuth, surface);
+  return evaluate_diffuse(brdf, surface) + lobe * (intensity_of(jones, light) / unpolarised_intensity_of(jones));
 }
 
 /// The coherent delta in the mirror direction: energies.

@@ -92,8 +92,8 @@ Mueller<T> refraction_mueller(const T& cos_theta, const T& n) {
 /// What an interface reflects of linearly polarised light (Maillot 1996, eq. (3), there for T): R = R_s·cos²α + R_p·sin²α, α
 /// between the field and s, the perpendicular to the plane of incidence.
 template <class T>
-T linear_share(const Polarised<T>& shares, const T& cos_2alpha) {
-  return shares.unpolarised() + T(0.5) * (shares.s - shares.p) * cos_2alpha;
+T linear_share(const Polarised<T>& shares, const LinearLight<T>& light) {
+  return shares.s * square(light.cos_alpha) + shares.p * square(light.sin_alpha);
 }
 
 }  // namespace gonio

@@ -90,10 +90,26 @@ Mueller<T> stokes_rotation(const T& cos_2psi, const T& sin_2psi) {
   return turned;
 }
 
-/// Linearly polarised light of intensity 1, its field at the angle α from s towards p: (1, cos 2α, sin 2α, 0).
+/// Linearly polarised light of intensity 1, its field at the angle α from s towards p (Maillot 1996, eq. (3)).
 template <class T>
-Stokes<T> linear_polarisation(const T& cos_2alpha, const T& sin_2alpha) {
-  return {T(1), cos_2alpha, sin_2alpha, T(0)};
+struct LinearLight {
+  T cos_alpha, sin_alpha;
+  /// (1, cos 2α, sin 2α, 0).
+  Stokes<T> stokes() const {
+    return {T(1), (cos_alpha - sin_alpha) * (cos_alpha + sin_alpha), T(2) * sin_alpha * cos_alpha, T(0)};
+  }
+};
+
+/// What of it leaves the element, all polarisations together: (1, 0, 0, 0)·M·stokes() without its cancellation.
+template <class T>
+T intensity_of(const Jones<T>& j, const LinearLight<T>& light) {
+  const T &s = light.cos_alpha, &p = light.sin_alpha;
+  return norm(s * j.ss + p * j.sp) + norm(s * j.ps + p * j.pp);
+}
+/// The same of unpolarised light: m11.
+template <class T>
+T unpolarised_intensity_of(const Jones<T>& j) {
+  return T(0.5) * ((norm(j.ss) + norm(j.pp)) + (norm(j.sp) + norm(j.ps)));
 }
 
 }  // namespace gonio
