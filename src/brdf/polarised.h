@@ -4,10 +4,10 @@
 // Stokes vectors are taken in the frames of the mean plane: incident light (propagating along -i) in that of i and the normal,
 // reflected light (along o) in that of o and the normal; signs in optics/mueller.h. Known are
 //   faceted lobes   the facet that mirrors i into o acts as Fresnel's amplitudes say (Torrance-Sparrow's facets; for the
-//                   Kirchhoff models, Beckmann's, Stogryn's and He's, the stationary-phase field: He et al. 1991, appendix C);
+//                   Kirchhoff models, Beckmann's, Stogryn's and He's, the field of the stationary points, as He et al. 1991 take it);
 //   the diffuse part, Oren-Nayar's Lambertian facets: ideal depolarisers.
 // Not stated: lobes whose parameters hold their reflectance (Ward, Lafortune, …), lobes turned back (`retro`), Stogryn's
-// in-plane forms. states_polarisation() tells.
+// in-plane forms. polarisation_law() tells.
 #include "base/special.h"
 #include "brdf/brdf.h"
 #include "optics/fresnel_amplitudes.h"
@@ -100,12 +100,24 @@ Mueller<T> facet_polarisation(const Directions<G>& w, const Azimuth<G>& azimuth,
   return normalised_mueller(facet_jones(w, azimuth, surface));
 }
 
-/// Whether the model says what becomes of polarisation.
+/// What the model says becomes of polarisation.
+enum class PolarisationLaw { facets, depolarising, not_stated };
+
+template <class T>
+PolarisationLaw polarisation_law(const Brdf<T>& brdf) {
+  if (std::holds_alternative<Lambert>(brdf.lobe) || std::holds_alternative<OrenNayar<T>>(brdf.lobe))
+    return brdf.retro ? PolarisationLaw::not_stated : PolarisationLaw::depolarising;
+  const auto* stogryn = std::get_if<Stogryn<T>>(&brdf.lobe);
+  const bool one_polarisation = stogryn && stogryn->form != StogrynForm::exact;
+  return brdf.facets() && !brdf.retro && !one_polarisation ? PolarisationLaw::facets : PolarisationLaw::not_stated;
+}
+inline std::string_view name_of(PolarisationLaw law) {
+  if (law == PolarisationLaw::facets) return "facets";
+  return law == PolarisationLaw::depolarising ? "depolarising" : "not stated";
+}
 template <class T>
 bool states_polarisation(const Brdf<T>& brdf) {
-  if (brdf.retro) return false;
-  if (const auto* stogryn = std::get_if<Stogryn<T>>(&brdf.lobe)) return stogryn->form == StogrynForm::exact;
-  return brdf.facets() || std::holds_alternative<Lambert>(brdf.lobe) || std::holds_alternative<OrenNayar<T>>(brdf.lobe);
+  return polarisation_law(brdf) != PolarisationLaw::not_stated;
 }
 
 /// The BRDF as a Mueller matrix, 1/sr, of a model that states polarisation; m11 is evaluate() of the same. `lobe_per_sr` is added

@@ -126,6 +126,14 @@ TEST_CASE("gonio fresnel --thickness-um: every path summed, absorption and dispe
   }
 }
 
+TEST_CASE("gonio models says what a model knows of polarisation", "[cli]") {
+  const auto of = [](const std::string& name) { return json::parse(run_gonio({"models", name, "--json"}).out)["polarisation"]; };
+  CHECK(of("he-1991") == "facets");
+  CHECK(of("stogryn-1967") == "facets");
+  CHECK(of("oren-nayar") == "depolarising");
+  CHECK(of("ward-1992") == "not stated");
+}
+
 TEST_CASE("Polarisation, transmission and slabs: what a user may get wrong is refused", "[cli]") {
   const Scratch scratch;
   const std::string row = kHeader + "30,40,180\n", below = kHeader + "30,140,180\n";
