@@ -83,9 +83,7 @@ double unpolarised(const Evaluation& e, const std::string& precision) {
 }
 
 /// The matrix, and f of the light asked for; the coherent part of a patch included.
-using PolarisedValues = PolarisedReference;
-
-PolarisedValues in_double(const Evaluation& e, const LinearLight<double>& light) {
+PolarisedValue in_double(const Evaluation& e, const LinearLight<double>& light) {
   if (e.row.transmitted())
     return {transmission_mueller(e.brdf, e.i(), e.o(), e.azimuth(), e.surface),
             transmission_linear(e.brdf, e.i(), e.o(), e.azimuth(), e.surface, light)};
@@ -94,14 +92,14 @@ PolarisedValues in_double(const Evaluation& e, const LinearLight<double>& light)
           evaluate_linear(e.brdf, w, e.azimuth(), e.surface, e.wavelength_um, light, e.patch())};
 }
 
-PolarisedValues first_lane(const Mueller<FloatLanes>& lanes, const FloatLanes& linear) {
-  PolarisedValues first{{}, linear.get(0)};
+PolarisedValue first_lane(const Mueller<FloatLanes>& lanes, const FloatLanes& linear) {
+  PolarisedValue first{{}, linear.get(0)};
   for (int r = 0; r < 4; ++r)
     for (int c = 0; c < 4; ++c) first.mueller.m[r][c] = lanes.m[r][c].get(0);
   return first;
 }
 
-PolarisedValues in_float(const Evaluation& e, const LinearLight<double>& light) {
+PolarisedValue in_float(const Evaluation& e, const LinearLight<double>& light) {
   const auto lanes = spread_brdf<FloatLanes>(e.chosen.spec, e.chosen.values);
   const auto surface = spread<FloatLanes>(e.surface);
   const auto azimuth = spread<FloatLanes>(e.azimuth());
@@ -116,7 +114,7 @@ PolarisedValues in_float(const Evaluation& e, const LinearLight<double>& light) 
   return first_lane(evaluate_mueller(lanes, w, azimuth, surface, um, patch), evaluate_linear(lanes, w, azimuth, surface, um, field, patch));
 }
 
-PolarisedValues polarised(const Evaluation& e, const std::string& precision, const LinearLight<double>& light) {
+PolarisedValue polarised(const Evaluation& e, const std::string& precision, const LinearLight<double>& light) {
   if (precision == "double") return in_double(e, light);
   if (precision == "float") return in_float(e, light);
   return reference_polarised(e.chosen.spec, e.chosen.values, e.row.theta_i_deg, e.row.theta_o_deg, e.row.phi_deg, e.surface,
@@ -130,7 +128,8 @@ void check_polarisation(const Evaluation& e) {
 }
 
 void check_transparent(const Evaluation& e) {
-  if (e.surface.perfect) throw input_error("theta_o_deg {}: `perfect` lets nothing through; expected --n or a transparent --material", e.row.theta_o_deg);
+  if (e.surface.perfect)
+    throw input_error("theta_o_deg {}: `perfect` lets nothing through; expected --n or a transparent --material", e.row.theta_o_deg);
   if (e.surface.k > kTransparentK)
     throw input_error("theta_o_deg {}: the surface absorbs (k = {}); expected k up to {} for transmitted light", e.row.theta_o_deg,
                       e.surface.k, kTransparentK);
@@ -178,7 +177,7 @@ EvalResult evaluate_row(const Subject& subject, const EvalRow& row, double wavel
     return result;
   }
   check_polarisation(e);
-  const PolarisedValues values = polarised(e, request.precision, request.light.value_or(LinearLight<double>{1, 0}));
+  const PolarisedValue values = polarised(e, request.precision, request.light.value_or(LinearLight<double>{1, 0}));
   if (request.mueller) result.mueller = values.mueller;
   result.f_r_per_sr = request.light ? values.linear : values.mueller.m[0][0];
   if (request.light)

@@ -150,7 +150,9 @@ void run_fresnel(FresnelArguments arguments, bool json) {
   if (many && arguments.thickness_um) answer["thickness_um"] = *arguments.thickness_um;
   if (many) answer["wavelengths"] = by_wavelength;
   if (arguments.thickness_um)
-    text = fmt::format("slab of {:g} um, faces and passes summed as intensities (thicker than the coherence length)\n", *arguments.thickness_um) + text;
+    text = fmt::format("slab of {:g} um, faces and passes summed as intensities (thicker than the coherence length)\n",
+                       *arguments.thickness_um) +
+           text;
   std::cout << (json ? answer.dump(2) + '\n' : text);
 }
 

@@ -43,7 +43,7 @@ Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values,
   return evaluate_in_50(spec, values, exact, surface, wavelength_um);
 }
 
-PolarisedReference reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
+PolarisedValue reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
                                        double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg,
                                        const LinearLight<double>& light, double lobe_per_sr) {
   const Brdf<Digits50> brdf = brdf_in_50(spec, values);

@@ -23,11 +23,11 @@ Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values,
 
 /// f at exactly the doubles given, as a Mueller matrix, and of linearly polarised light; theta_o_deg above 90 is transmission,
 /// `lobe_per_sr` as in evaluate_mueller().
-struct PolarisedReference {
+struct PolarisedValue {
   Mueller<double> mueller;
   double linear;
 };
-PolarisedReference reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
+PolarisedValue reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
                                        double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg = 0,
                                        const LinearLight<double>& light = {1, 0}, double lobe_per_sr = 0);
 
