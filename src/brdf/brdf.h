@@ -19,6 +19,7 @@
 #include "brdf/pseudo_realistic.h"
 #include "brdf/rough_dielectric.h"
 #include "brdf/sgd.h"
+#include "brdf/stogryn.h"
 #include "brdf/torrance_sparrow.h"
 #include "optics/interface.h"
 
@@ -26,7 +27,7 @@ namespace gonio {
 
 /// The closed list of lobes: adding a model is one header, one line here and one in models.cpp, and its reference test.
 template <class T>
-using Lobe = std::variant<Lambert, PseudoRealistic<T>, TorranceSparrow<T>, BeckmannKirchhoff<T>, Ggx<T>, AnisotropicBeckmann<T>, Ward<T>, OrenNayar<T>,
+using Lobe = std::variant<Lambert, PseudoRealistic<T>, TorranceSparrow<T>, BeckmannKirchhoff<T>, Stogryn<T>, Ggx<T>, AnisotropicBeckmann<T>, Ward<T>, OrenNayar<T>,
                           Mirror, TrowbridgeReitz<T>, Blinn<T>, CookTorrance<T>, PhongHighlight<T>, HeTorrance<T>,
                           // empirical
                           Lafortune<T>, AshikhminShirley<T>, BlinnPhongNormalised<T>, LowSmooth<T>, LowMicrofacet<T>,
@@ -74,6 +75,7 @@ T lobe_shape(const Lobe<T>& lobe, const Directions<G>& w, const T& wavelength_um
 template <class T, class L>
 T facet_reflectance(const L& lobe, const T& cos_d, const Interface<T>& surface) {
   if constexpr (!L::kFacets) return T(1);
+  else if constexpr (requires { lobe.facet_reflectance(cos_d, surface); }) return lobe.facet_reflectance(cos_d, surface);
   else if constexpr (requires { lobe.schlick_fresnel; })
     return lobe.schlick_fresnel ? surface.schlick_reflectance(cos_d) : surface.reflectance(cos_d);
   else return surface.reflectance(cos_d);
@@ -95,13 +97,22 @@ T lobe_value(const L& lobe, const Directions<G>& w, const Interface<T>& surface,
   }
 }
 
-/// f_r in sr⁻¹ of a pair of directions above the horizon (cosines > 0). Deltas (the coherent part) evaluate to 0 here.
-template <class T, class G>
-T evaluate(const Brdf<T>& brdf, const Directions<G>& given, const Interface<T>& surface, const T& wavelength_um) {
-  const Directions<G> w = brdf.retro ? turned_back(given) : given;
+/// The two parts of f_r in sr⁻¹, of a pair of directions above the horizon (cosines > 0). Deltas (the coherent part) evaluate to 0 here.
+template <class T>
+T evaluate_diffuse(const Brdf<T>& brdf, const Interface<T>& surface) {
   const T rho_d = brdf.diffuse_times_r0() ? surface.r0() : T(1);
-  const T lobe = std::visit([&](const auto& one) { return lobe_value<T>(one, w, surface, wavelength_um); }, brdf.lobe);
-  return brdf.kd * rho_d / kPi<T> + brdf.ks * lobe;
+  return brdf.kd * rho_d / kPi<T>;
+}
+template <class T, class G>
+T evaluate_lobe(const Brdf<T>& brdf, const Directions<G>& given, const Interface<T>& surface, const T& wavelength_um) {
+  const Directions<G> w = brdf.retro ? turned_back(given) : given;
+  return brdf.ks * std::visit([&](const auto& one) { return lobe_value<T>(one, w, surface, wavelength_um); }, brdf.lobe);
+}
+
+/// f_r in sr⁻¹.
+template <class T, class G>
+T evaluate(const Brdf<T>& brdf, const Directions<G>& w, const Interface<T>& surface, const T& wavelength_um) {
+  return evaluate_diffuse(brdf, surface) + evaluate_lobe(brdf, w, surface, wavelength_um);
 }
 
 /// The model's lobe. Values in the order of its parameter list.
@@ -117,6 +128,7 @@ Lobe<T> make_lobe(const ModelSpec& spec, std::span<const T> values) {
                                 form == FacetForm::schlick_f || form == FacetForm::schlick};
     }
     case ModelId::beckmann_kirchhoff: return BeckmannKirchhoff<T>{values[0], values[1], KirchhoffForm(spec.form)};
+    case ModelId::stogryn_1967: return Stogryn<T>{kSqrt2<T> * values[0], StogrynForm(spec.form)};
     case ModelId::ggx: return Ggx<T>{values[0], values[1], spec.shadowing};
     case ModelId::beckmann: return AnisotropicBeckmann<T>{values[0], values[1], spec.shadowing};
     case ModelId::ward_1992: return Ward<T>{values[0], values[1], WardForm::ward_1992};

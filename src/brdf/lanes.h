@@ -1,5 +1,5 @@
 #pragma once
-#include "brdf/brdf.h"
+#include "brdf/transmission.h"
 
 namespace gonio {
 
@@ -16,6 +16,17 @@ template <class Lanes>
 Interface<Lanes> spread(const Interface<double>& surface) {
   using S = scalar_t<Lanes>;
   return {Lanes(S(surface.n)), Lanes(S(surface.k)), surface.perfect};
+}
+
+template <class Lanes>
+Azimuth<Lanes> spread(const Azimuth<double>& azimuth) {
+  using S = scalar_t<Lanes>;
+  return {Lanes(S(azimuth.sin_phi)), Lanes(S(azimuth.one_plus_cos))};
+}
+template <class Lanes>
+UnitVector<Lanes> spread(const UnitVector<double>& v) {
+  using S = scalar_t<Lanes>;
+  return {Lanes(S(v.x)), Lanes(S(v.y)), Lanes(S(v.z))};
 }
 
 template <class Lanes>

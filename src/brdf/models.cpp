@@ -31,6 +31,9 @@ std::vector<ModelInfo> thesis_models() {
         {"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100, std::nullopt},
         kKd, kKs},
        {}, {"exact", "rough-limit", "smooth-limit"}, true, false, false, true},
+      {ModelId::stogryn_1967, "stogryn-1967", "Very rough surfaces of finite conductivity, R by polarisation at half the angle between i and o",
+       "f = kd/pi + ks R(cos_d) D/(4 cos_i cos_o), Beckmann's D; in-plane-s, -p: R_s, R_p of light in the plane of incidence",
+       "Stogryn 1967; Maillot 1996, I.2.3.4", {kSlope, kKd, kKs}, {}, {"exact", "in-plane-s", "in-plane-p"}, true, false, false, false},
   };
 }
 

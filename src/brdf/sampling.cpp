@@ -28,6 +28,7 @@ double sampling_alpha(const Lobe<double>& lobe, double wavelength_um) {
       Overloaded{[](const Lambert&) { return 1.0; }, [](const Mirror&) { return 1.0; }, [](const OrenNayar<double>&) { return 1.0; },
                  [](const PseudoRealistic<double>& one) { return std::sqrt(2.0) * one.slope_rms; },
                  [](const TorranceSparrow<double>& one) { return one.alpha; },
+                 [](const Stogryn<double>& one) { return one.alpha; },
                  [](const RoughDielectric<double>& one) { return one.alpha; },
                  [&](const BeckmannKirchhoff<double>& one) {
                    const double diffraction = wavelength_um / (kPi<double> * one.correlation_um);

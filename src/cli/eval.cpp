@@ -1,18 +1,14 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
-#include "brdf/lanes.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/subject.h"
-#include "fit/csv.h"
-#include "reference/reference.h"
+#include "cli/eval_row.h"
 
 namespace gonio::cli {
 namespace {
@@ -23,114 +19,75 @@ struct EvalArguments {
   ModelArguments model;
   SurfaceArguments surface;
   std::optional<double> at_nm;
-  std::string precision = "double", input = "-";
+  std::string input = "-", polarisation;
+  EvalRequest request;
 };
 
-/// One row of the input: angles in degrees, and the wavelength where a column gives it.
-struct EvalRow {
-  double theta_i_deg, theta_o_deg, phi_deg;
-  std::optional<double> wavelength_nm;
-  double phi_i_deg;  ///< from the grain; what anisotropic lobes look at
-  const CsvRow* row;
-};
-
-/// The column under any of its names; -1 where optional and absent.
-int column(const CsvTable& table, std::initializer_list<std::string_view> names, const std::string& file, bool required = true) {
-  for (std::size_t c = 0; c < table.header.size(); ++c)
-    for (const auto name : names)
-      if (table.header[c] == name) return static_cast<int>(c);
-  if (required) throw input_error("{}:{}: column {} is missing; expected theta_i_deg,theta_o_deg,phi_deg[,wavelength_nm]", file,
-                                  table.header_line, *names.begin());
-  return -1;
+/// m11 as it is, the others divided by it (the convention of files); empty where f is 0 and says nothing.
+std::vector<std::string> mueller_cells(const Mueller<double>& mueller) {
+  const double m11 = mueller.m[0][0];
+  std::vector<std::string> cells;
+  for (const auto& row : mueller.m)
+    for (const double element : row) cells.push_back(m11 > 0 ? fmt::format("{}", element / m11 + 0.0) : "");
+  cells[0] = fmt::format("{}", m11);
+  return cells;
 }
 
-double zenith(std::string_view cell, std::string_view name, const std::string& file, int line) {
-  const double value = csv_number(cell, name, file, line);
-  if (!(value >= 0 && value < 90)) throw input_error("{}:{}: {} is {}; expected 0 <= angle < 90", file, line, name, value);
-  return value;
+std::string mueller_names(char separator) {
+  std::string names;
+  for (int row = 1; row <= 4; ++row)
+    for (int column = 1; column <= 4; ++column) names += fmt::format("{}m{}{}", separator, row, column);
+  return names;
 }
 
-std::vector<EvalRow> eval_rows(const CsvTable& table, const std::string& file) {
-  const int theta_i = column(table, {"theta_i_deg"}, file), theta_o = column(table, {"theta_o_deg", "theta_r_deg"}, file);
-  const int phi = column(table, {"phi_deg"}, file), wavelength = column(table, {"wavelength_nm"}, file, false);
-  const int phi_i = column(table, {"phi_i_deg"}, file, false);
-  std::vector<EvalRow> rows;
-  for (const CsvRow& row : table.rows) {
-    EvalRow one{zenith(row.cells[theta_i], "theta_i_deg", file, row.line), zenith(row.cells[theta_o], "theta_o_deg", file, row.line),
-                csv_number(row.cells[phi], "phi_deg", file, row.line), std::nullopt,
-                phi_i >= 0 ? csv_number(row.cells[phi_i], "phi_i_deg", file, row.line) : 0.0, &row};
-    if (wavelength >= 0 && !row.cells[wavelength].empty())
-      one.wavelength_nm = csv_number(row.cells[wavelength], "wavelength_nm", file, row.line);
-    rows.push_back(one);
-  }
-  if (rows.empty()) throw input_error("{}:{}: has no rows; expected at least one pair of directions", file, table.header_line);
-  return rows;
-}
-
-/// The sinc² of a patch takes h's components in and across the plane of incidence.
-double coherent_patch(const ChosenModel& chosen, const EvalRow& row, const Directions<double>& w, double reflectance,
-                      double wavelength_um) {
-  if (!chosen.patch_x_um) return 0;
-  const BeckmannKirchhoff<double> kirchhoff{chosen.values[0], chosen.values[1]};
-  const double delta = (row.phi_deg - 180) * kPi<double> / 180, sin_o = sin_deg(row.theta_o_deg);
-  const double h_x = sin_deg(row.theta_i_deg) - sin_o * std::cos(delta), h_y = -sin_o * std::sin(delta);
-  return chosen.values[3] * reflectance *
-         kirchhoff.coherent_patch(w, h_x, h_y, *chosen.patch_x_um, *chosen.patch_y_um, wavelength_um);
-}
-
-struct EvalResult {
-  double f_r_per_sr, coherent_energy;
-};
-
-EvalResult evaluate_row(const Subject& subject, const EvalRow& row, double wavelength_nm, const std::string& precision) {
-  const ChosenModel& chosen = subject.model;
-  const double wavelength_um = wavelength_nm / 1000;
-  const Interface<double> surface = subject.surface.at(wavelength_nm);
-  const Directions<double> w = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg, row.phi_i_deg);
-  const Brdf<double> brdf = make_brdf<double>(chosen.spec, chosen.values);
-  double f;
-  if (precision == "float") {
-    const auto lanes = spread_brdf<FloatLanes>(chosen.spec, chosen.values);
-    f = evaluate(lanes, spread<FloatLanes>(w), spread<FloatLanes>(surface), FloatLanes(float(wavelength_um))).get(0);
-  } else if (precision == "reference") {
-    f = reference_evaluate(chosen.spec, chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, surface, wavelength_um,
-                           row.phi_i_deg)
-            .value;
-  } else {
-    f = evaluate(brdf, w, surface, wavelength_um);
-  }
-  f += coherent_patch(chosen, row, w, surface.reflectance(w.cos_d), wavelength_um);
-  return {f, coherent_energy(brdf, w.cos_i, surface, wavelength_um)};
+void add_mueller(Json& json, const Mueller<double>& mueller) {
+  const double m11 = mueller.m[0][0];
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      json[fmt::format("m{}{}", row + 1, column + 1)] = m11 > 0 ? Json(mueller.m[row][column] / m11 + 0.0) : Json(nullptr);
+  json["m11"] = m11;
 }
 
 void run_eval(const EvalArguments& arguments, const Common& common) {
+  EvalRequest request = arguments.request;
+  if (!arguments.polarisation.empty()) {
+    if (request.mueller) throw input_error("--mueller and --polarisation: both given; expected one of the two");
+    request.light = linear_light(arguments.polarisation);
+  }
   const Subject subject = make_subject(arguments.model, arguments.surface);
   const bool from_stdin = arguments.input == "-";
   const std::string file = from_stdin ? "stdin" : arguments.input;
   const std::string text = from_stdin ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : read_file(arguments.input);
   const CsvTable table = read_csv(text, file);
-  const std::vector<EvalRow> rows = eval_rows(table, file);
+  const Brdf<double> brdf = make_brdf<double>(subject.model.spec, subject.model.values);
+  const std::vector<EvalRow> rows = eval_rows(table, file, transmits(brdf));
 
   Json json_rows = Json::array();
-  std::string out = fmt::format("{},f_r_per_sr\n", fmt::join(table.header, ","));
-  const bool delta = has_delta(make_lobe<double>(subject.model.spec, subject.model.values));
+  std::string out = fmt::format("{},f_r_per_sr{}\n", fmt::join(table.header, ","), request.mueller ? mueller_names(',') : "");
+  const bool delta = has_delta(brdf.lobe);
   for (const EvalRow& row : rows) {
     const double wavelength_nm = subject.wavelength_for(row.wavelength_nm ? row.wavelength_nm : arguments.at_nm);
-    const EvalResult result = evaluate_row(subject, row, wavelength_nm, arguments.precision);
-    out += fmt::format("{},{}\n", fmt::join(row.row->cells, ","), result.f_r_per_sr);
+    const EvalResult result = evaluate_row(subject, row, wavelength_nm, request);
+    out += fmt::format("{},{}", fmt::join(row.row->cells, ","), result.f_r_per_sr);
+    if (result.mueller) out += fmt::format(",{}", fmt::join(mueller_cells(*result.mueller), ","));
+    out += '\n';
     Json one{{"theta_i_deg", row.theta_i_deg}, {"theta_o_deg", row.theta_o_deg}, {"phi_deg", row.phi_deg}};
     if (wavelength_nm > 0) one["wavelength_nm"] = wavelength_nm;
     one["f_r_per_sr"] = result.f_r_per_sr;
+    if (row.transmitted()) one["transmitted"] = true;
+    if (result.mueller) add_mueller(one, *result.mueller);
     if (delta) one["coherent_energy"] = result.coherent_energy;
     json_rows.push_back(one);
   }
-  if (common.json)
-    std::cout << Json{{"model", subject.model.spec.info().name}, {"variant", subject.model.spec.variant()},
-                      {"material", subject.surface.name()}, {"precision", arguments.precision}, {"rows", json_rows}}
-                     .dump(2)
-              << '\n';
-  else
+  if (common.json) {
+    Json answer{{"model", subject.model.spec.info().name}, {"variant", subject.model.spec.variant()},
+                {"material", subject.surface.name()}, {"precision", request.precision}};
+    if (request.light) answer["polarisation"] = arguments.polarisation;
+    answer["rows"] = json_rows;
+    std::cout << answer.dump(2) << '\n';
+  } else {
     std::cout << out;
+  }
   if (subject.surface.material().from_reflectance()) std::cerr << "note: F from reflectance (n from R0, k = 0)\n";
 }
 
@@ -140,15 +97,21 @@ void add_eval(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("eval", "Evaluate a model or a fit: rows of angles in, the same rows + f_r_per_sr out");
   command->footer("Example: printf 'theta_i_deg,theta_o_deg,phi_deg\\n30,40,180\\n' | gonio eval torrance-sparrow --set m=0.2 "
                   "--material Au --at 550\nColumns: theta_i_deg, theta_o_deg (or theta_r_deg), phi_deg = phi_o - phi_i (180: mirror "
-                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm].\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.");
+                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm].\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.\n"
+                  "rough-dielectric: with theta_o_deg above 90, up to 180, it is f_t of the transmitted radiance; n is that of the far over the near side.\n"
+                  "Polarised light: s = k x n, p = k x s for the propagation direction k and the mean normal n; --polarisation gives f_r of linearly\n"
+                  "polarised light at an angle from s towards p, received in any polarisation; --mueller appends m11 (= f_r) and m12 .. m44, divided\n"
+                  "by m11, of Stokes vectors I, Q = s - p, U = +45 - -45, V = right - left. Faceted models and diffuse parts (depolarising) only.");
   add_common(*command, common);
   auto arguments = std::make_shared<EvalArguments>();
   arguments->model.add_to(*command);
   arguments->surface.add_to(*command);
   command->add_option("--at", arguments->at_nm, "Wavelength in nm, where the rows have none");
-  command->add_option("--precision", arguments->precision, "float (SIMD), double or reference (50 digits)")
+  command->add_option("--precision", arguments->request.precision, "float (SIMD), double or reference (50 digits)")
       ->check(CLI::IsMember({"float", "double", "reference"}))
       ->capture_default_str();
+  command->add_option("--polarisation", arguments->polarisation, "Incident linear polarisation: s, p or degrees from s towards p");
+  command->add_flag("--mueller", arguments->request.mueller, "The whole Mueller matrix: columns m11 .. m44");
   command->add_option("--input", arguments->input, "CSV file, - for standard input")->capture_default_str();
   command->callback([&common, arguments] { run_eval(*arguments, common); });
 }

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "brdf/models.h"
+#include "brdf/polarised.h"
 #include "cli/commands.h"
 #include "fit/published_parameters.h"
 
@@ -11,6 +11,13 @@ namespace gonio::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Of the model's first variant.
+std::string_view polarisation_of(const ModelInfo& info) {
+  std::vector<double> values;
+  for (const ParameterInfo& p : info.parameters) values.push_back(p.fallback.value_or(p.fit_lo));
+  return name_of(polarisation_law(make_brdf<double>({info.id}, values)));
+}
 
 Json describe(const ModelInfo& info) {
   Json parameters = Json::array();
@@ -29,6 +36,7 @@ Json describe(const ModelInfo& info) {
           {"shadowing", info.shadowings},
           {"variants", info.variants},
           {"needs_wavelength", info.needs_wavelength},
+          {"polarisation", polarisation_of(info)},
           {"claims",
            {{"reciprocal", info.reciprocal}, {"conserving", info.conserving}, {"bounded_at_grazing", info.bounded_at_grazing}}}};
 }
@@ -41,6 +49,7 @@ void print_card(const ModelInfo& info) {
   if (!info.shadowings.empty())
     fmt::print("  shadowing       {} (default {})\n", fmt::join(info.shadowings, ", "), name_of(ModelSpec{}.shadowing));
   fmt::print("  variants        {}\n", fmt::join(info.variants, ", "));
+  fmt::print("  polarisation    {}\n", polarisation_of(info));
   fmt::print("  claims          {}, {}, {}{}\n\n", info.reciprocal ? "reciprocal" : "not reciprocal",
              info.conserving ? "conserving for kd + ks <= 1" : "not conserving by itself (see `gonio table limits`)",
              info.bounded_at_grazing ? "bounded at grazing" : "unbounded at grazing",

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "brdf/brdf.h"
+#include "brdf/transmission.h"
 
 namespace gonio {
 
@@ -20,6 +20,16 @@ Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values,
 /// The same at directions already reduced (cosines and tangents taken as exact).
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,
                           const Interface<double>& surface, double wavelength_um);
+
+/// f at exactly the doubles given, as a Mueller matrix, and of linearly polarised light; theta_o_deg above 90 is transmission,
+/// `lobe_per_sr` as in evaluate_mueller().
+struct PolarisedValue {
+  Mueller<double> mueller;
+  double linear;
+};
+PolarisedValue reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
+                                       double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg = 0,
+                                       const LinearLight<double>& light = {1, 0}, double lobe_per_sr = 0);
 
 /// R_s and R_p at exactly these doubles; the angle in degrees, 0 to 90.
 Polarised<double> reference_fresnel(double theta_deg, double n, double k);
