@@ -17,18 +17,44 @@ struct DirectionPairs {
   std::size_t size() const { return ix.size(); }
 };
 
-/// f_r of `lobe` alone over whole batches from `first` on: what the compiler makes one loop of.
-template <class Lanes, class L>
-[[gnu::flatten]] void evaluate_lanes(const L lobe, const Lanes scale, const Lanes diffuse, const Interface<Lanes> surface,
-                                     const Lanes wavelength_um, bool retro, const DirectionPairs<scalar_t<Lanes>>& pairs,
+inline constexpr int kLobesOwn = -1;  ///< no constant: the lobe's own choice, looked at for every pair
+
+/// Whole batches of one lobe, its choices constants of the loop: what the compiler makes one loop of.
+template <int kShadowing, bool kExact, bool kRetro, class Lanes, class L>
+[[gnu::flatten]] void evaluate_lanes(L lobe, const Lanes scale, const Lanes diffuse, const Interface<Lanes> surface,
+                                     const Lanes wavelength_um, const DirectionPairs<scalar_t<Lanes>> pairs,
                                      std::size_t count, scalar_t<Lanes>* f_per_sr) {
+  if constexpr (kShadowing != kLobesOwn) lobe.shadowing = static_cast<Shadowing>(kShadowing);
+  if constexpr (kExact) lobe.form = FacetForm::exact, lobe.schlick_fresnel = false;
   for (std::size_t at = 0; at + Lanes::size <= count; at += Lanes::size) {
     const auto load = [at](std::span<const scalar_t<Lanes>> component) { return Lanes::load_unaligned(component.data() + at); };
     const Lanes ix = load(pairs.ix), iy = load(pairs.iy);
-    const Directions<Lanes> w = reduce<Lanes>(retro ? Lanes(-ix) : ix, retro ? Lanes(-iy) : iy, load(pairs.iz), load(pairs.ox),
+    const Directions<Lanes> w = reduce<Lanes>(kRetro ? Lanes(-ix) : ix, kRetro ? Lanes(-iy) : iy, load(pairs.iz), load(pairs.ox),
                                               load(pairs.oy), load(pairs.oz));
     multiply_add(scale, lobe_value<Lanes>(lobe, w, surface, wavelength_um), diffuse).store_unaligned(f_per_sr + at);
   }
+}
+
+/// The loop with the lobe's choices as constants, where it has any.
+template <class Lanes, class L, class... Rest>
+void evaluate_lobe_lanes(const L& lobe, bool retro, const Rest&... rest) {
+  if (retro) return evaluate_lanes<kLobesOwn, false, true, Lanes>(lobe, rest...);
+  constexpr bool kForms = std::is_same_v<L, TorranceSparrow<Lanes>>;
+  const auto shadowed = [&]<Shadowing kShadowing>() {
+    evaluate_lanes<static_cast<int>(kShadowing), kForms, false, Lanes>(lobe, rest...);
+  };
+  if constexpr (kForms)
+    if (lobe.form != FacetForm::exact) return evaluate_lanes<kLobesOwn, false, false, Lanes>(lobe, rest...);
+  if constexpr (requires { lobe.shadowing; }) {
+    switch (lobe.shadowing) {
+      case Shadowing::none: return shadowed.template operator()<Shadowing::none>();
+      case Shadowing::v_cavity: return shadowed.template operator()<Shadowing::v_cavity>();
+      case Shadowing::smith_separable: return shadowed.template operator()<Shadowing::smith_separable>();
+      case Shadowing::smith_correlated: return shadowed.template operator()<Shadowing::smith_correlated>();
+      case Shadowing::smith_1967: return shadowed.template operator()<Shadowing::smith_1967>();
+    }
+  }
+  evaluate_lanes<kLobesOwn, false, false, Lanes>(lobe, rest...);
 }
 
 /// f_r in sr⁻¹ (no cosine) of every pair; `f_per_sr` as long as they are. Deltas evaluate to 0.
@@ -39,7 +65,7 @@ void evaluate_pairs(const Brdf<Lanes>& brdf, const DirectionPairs<scalar_t<Lanes
   const FlushToZero flush;
   const Lanes diffuse = brdf.kd * (brdf.diffuse_times_r0() ? surface.r0() : Lanes(S(1))) / kPi<Lanes>;
   const auto run = [&](const DirectionPairs<S>& some, std::size_t count, S* f) {
-    std::visit([&](const auto& one) { evaluate_lanes<Lanes>(one, brdf.ks, diffuse, surface, wavelength_um, brdf.retro, some, count, f); },
+    std::visit([&](const auto& one) { evaluate_lobe_lanes<Lanes>(one, brdf.retro, brdf.ks, diffuse, surface, wavelength_um, some, count, f); },
                brdf.lobe);
   };
   run(pairs, pairs.size(), f_per_sr.data());
