@@ -7,12 +7,12 @@ namespace {
 
 Digits as_digits(const Digits50& x) { return {x.convert_to<double>(), x.str(40)}; }
 
-Digits evaluate_in_50(const ModelSpec& spec, std::span<const double> values, const Directions<Digits50>& w,
+Digits50 value_in_50(const ModelSpec& spec, std::span<const double> values, const Directions<Digits50>& w,
                       const Interface<double>& surface, double wavelength_um) {
   const std::vector<Digits50> parameters(values.begin(), values.end());
   const Brdf<Digits50> brdf = make_brdf<Digits50>(spec, parameters);
   const Interface<Digits50> interface{Digits50(surface.n), Digits50(surface.k), surface.perfect};
-  return as_digits(evaluate(brdf, w, interface, Digits50(wavelength_um)));
+  return evaluate(brdf, w, interface, Digits50(wavelength_um));
 }
 
 }  // namespace
@@ -20,7 +20,7 @@ Digits evaluate_in_50(const ModelSpec& spec, std::span<const double> values, con
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
                           double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg) {
   const auto w = directions_from_deg<Digits50>(Digits50(theta_i_deg), Digits50(theta_o_deg), Digits50(phi_deg), Digits50(phi_i_deg));
-  return evaluate_in_50(spec, values, w, surface, wavelength_um);
+  return as_digits(value_in_50(spec, values, w, surface, wavelength_um));
 }
 
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,
@@ -28,7 +28,13 @@ Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values,
   const Directions<Digits50> exact{Digits50(w.cos_i),  Digits50(w.cos_o),  Digits50(w.cos_d),
                                    Digits50(w.tan2_h), Digits50(w.tan2_i), Digits50(w.tan2_o), Digits50(w.ix), Digits50(w.iy),
                                    Digits50(w.ox),     Digits50(w.oy),     Digits50(w.hx),     Digits50(w.hy)};
-  return evaluate_in_50(spec, values, exact, surface, wavelength_um);
+  return as_digits(value_in_50(spec, values, exact, surface, wavelength_um));
+}
+
+double reference_value(const ModelSpec& spec, std::span<const double> values, const UnitVector<double>& i, const UnitVector<double>& o,
+                       const Interface<double>& surface, double wavelength_um) {
+  const auto w = reduce(Digits50(i.x), Digits50(i.y), Digits50(i.z), Digits50(o.x), Digits50(o.y), Digits50(o.z));
+  return value_in_50(spec, values, w, surface, wavelength_um).convert_to<double>();
 }
 
 Polarised<double> reference_fresnel(double theta_deg, double n, double k) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "base/unit_vector.h"
 #include "brdf/brdf.h"
 
 namespace gonio {
@@ -20,6 +21,11 @@ Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values,
 /// The same at directions already reduced (cosines and tangents taken as exact).
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,
                           const Interface<double>& surface, double wavelength_um);
+
+/// At unit vectors towards light and eye (z > 0; whatever they lack of unit length is taken as given), reduced in 50 digits as well:
+/// the judge of a path that received exactly these numbers.
+double reference_value(const ModelSpec& spec, std::span<const double> values, const UnitVector<double>& i, const UnitVector<double>& o,
+                       const Interface<double>& surface, double wavelength_um);
 
 /// R_s and R_p at exactly these doubles; the angle in degrees, 0 to 90.
 Polarised<double> reference_fresnel(double theta_deg, double n, double k);
