@@ -32,7 +32,7 @@ Polarised<T> fresnel(const T& cos_theta, const T& n, const T& k) {
   const T smaller = select(larger > T(0), nk / select(larger > T(0), larger, T(1)), T(0));
   const T a = select(t >= T(0), larger, smaller), b = select(t >= T(0), smaller, larger);
   const T contrast = (n - T(1)) * (n + T(1)), a_plus_c = a + c;
-  const T a_minus_c = select(square(k) < abs(contrast) && a_plus_c > T(0),
+  const T a_minus_c = select(square(k) < abs(contrast) && t >= T(0) && a_plus_c > T(0),
                              (contrast - square(k) + square(b)) / select(a_plus_c > T(0), a_plus_c, T(1)), a - c);
   const T cross = T(2) * a * c;
   const T s_sum = q + cross + square(c);
