@@ -59,13 +59,24 @@ std::vector<double> evaluate_all(const ModelSpec& spec, std::span<const BrdfPoin
 }
 
 /// R near total reflection changes as the root of the distance to it: the input's own rounding is more than the bars there.
-bool next_to_critical(const BrdfPoint& point, bool retro, Precision precision) {
+bool next_to_critical(const BrdfPoint& point, double cos2_d, Precision precision) {
   const double n = point.surface.n, k = point.surface.k;
   if (point.surface.perfect || n >= 1) return false;
-  const double turn = retro ? -1 : 1;
-  const double c2 = 0.25 * (square(turn * point.i.x + point.o.x) + square(turn * point.i.y + point.o.y) + square(point.i.z + point.o.z));
-  const double t = (n - 1) * (n + 1) - k * k + c2, q = std::sqrt(t * t + 4 * n * n * k * k);
-  return q < (precision == Precision::single ? 0.03 : 1e-5) * c2;
+  const double t = (n - 1) * (n + 1) - k * k + cos2_d, q = std::sqrt(t * t + 4 * n * n * k * k);
+  return q < (precision == Precision::single ? 0.03 : 1e-5) * cos2_d;
+}
+
+/// Schlick's D, a cube that falls to 0 at a finite angle: no rounded input fixes its relative value next to there.
+bool next_to_edge(const ModelSpec& spec, const BrdfPoint& point, double cos_h, Precision precision) {
+  if (spec.variant() != "schlick-d" && spec.variant() != "schlick") return false;
+  const double left = 2 - (1 - cos_h) / (2 * square(point.values[0]));
+  return left < (precision == Precision::single ? 0.4 : 0.01);
+}
+
+bool ill_conditioned(const ModelSpec& spec, const BrdfPoint& point, Precision precision) {
+  const double turn = spec.retro ? -1 : 1, hz = point.i.z + point.o.z;
+  const double h2 = square(turn * point.i.x + point.o.x) + square(turn * point.i.y + point.o.y) + square(hz);
+  return next_to_critical(point, 0.25 * h2, precision) || next_to_edge(spec, point, hz / std::sqrt(h2), precision);
 }
 
 std::vector<BrdfPoint> exchanged(std::span<const BrdfPoint> points) {
@@ -138,11 +149,12 @@ CaseError measure(const ModelSpec& spec, Precision precision, std::string path, 
   for (std::size_t p = 0; p < points.size(); ++p) {
     if (!std::isfinite(f[p])) ++result.not_finite, ranked.push_back({points[p], f[p], exact[p], INFINITY});
     if (f[p] < 0) ++result.negative, ranked.push_back({points[p], f[p], exact[p], INFINITY});
-    if (next_to_critical(points[p], spec.retro, precision)) {
+    if (!std::isfinite(f[p])) continue;
+    if (ill_conditioned(spec, points[p], precision)) {
       ++result.ill_conditioned;
+      if (peak[points[p].set] > 0) result.largest_ill = std::max(result.largest_ill, std::abs(f[p] - exact[p]) / peak[points[p].set]);
       continue;
     }
-    if (!std::isfinite(f[p])) continue;
     const bool twofold = precision == Precision::twofold;
     const bool bright = exact[p] > (twofold ? 1e-290 : std::max(1e-30, 1e-6 * peak[points[p].set])), faint = !bright && !twofold && exact[p] > 1e-30;
     if (!bright && !faint) continue;

@@ -24,7 +24,10 @@ struct CaseError {
   std::string name, path;
   ModelSpec spec;
   std::size_t points = 0, bright = 0, faint = 0;
-  std::size_t ill_conditioned = 0;  ///< next to the critical angle of a thinner medium, where R itself is: not counted above
+  /// Points where f itself is no better known than its input, so not counted above: next to the critical angle of a thinner medium,
+  /// and to where Schlick's D reaches 0. Their largest error, beside the set's peak.
+  std::size_t ill_conditioned = 0;
+  double largest_ill = 0;
   double largest = 0, percentile_999 = 0, mean = 0, largest_faint = 0;
   std::size_t not_finite = 0, negative = 0;  ///< anywhere, ill-conditioned and vanishing f included
   double reciprocity = 0;                    ///< largest |f(i,o) - f(o,i)|/f where bright or faint; 0 for models that claim none

@@ -25,7 +25,8 @@ struct BrdfPoint {
 /// "torrance-sparrow smith-correlated schlick-f retro": what is not the model's only choice.
 std::string case_name(const ModelSpec& spec);
 
-/// Every model with every shadowing and variant it offers, and turned back once with its defaults.
+/// Every model with every shadowing and variant it offers (once where the variant brings its own G), and turned back once with its
+/// defaults.
 std::vector<ModelSpec> brdf_cases();
 
 struct PointOptions {

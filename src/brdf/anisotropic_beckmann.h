@@ -1,4 +1,5 @@
 #pragma once
+#include "base/scaled_exp.h"
 #include "brdf/directions.h"
 #include "surface/shadowing.h"
 
@@ -17,14 +18,13 @@ struct AnisotropicBeckmann {
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::exp;
     const T cos_i(w.cos_i), cos_o(w.cos_o), cos_sum = cos_i + cos_o;
     const T slopes = square(T(w.hx) / (alpha_x * cos_sum)) + square(T(w.hy) / (alpha_y * cos_sum));
-    const T d = exp(-slopes) * square(T(1) + T(w.tan2_h)) / (kPi<T> * alpha_x * alpha_y);
     // Smith's functions take α²·tan² only: the stretched tangents stand in for a surface of alpha = 1.
     Directions<T> stretched{cos_i, cos_o, T(w.cos_d), T(w.tan2_h), stretch(T(w.ix), T(w.iy), cos_i),
                             stretch(T(w.ox), T(w.oy), cos_o)};
-    return d * shadowing_masking<T>(shadowing, stretched, T(1)) / (T(4) * cos_i * cos_o);
+    const T scale = shadowing_masking<T>(shadowing, stretched, T(1)) / (T(4) * kPi<T> * alpha_x * alpha_y * cos_i * cos_o);
+    return scale * scaled_exp_squared(T(T(1) + T(w.tan2_h)), slopes);
   }
 
  private:

@@ -83,13 +83,21 @@ T facet_reflectance(const Lobe<T>& lobe, const T& cos_d, const Interface<T>& sur
   return std::visit([&](const auto& one) { return facet_reflectance<T>(one, cos_d, surface); }, lobe);
 }
 
+/// The same of a pair of directions: Schlick's power keeps its accuracy next to retro-reflection, where R0 may be smaller still.
+template <class T, class L, class G>
+T facet_reflectance(const L& lobe, const Directions<G>& w, const Interface<T>& surface) {
+  if constexpr (requires { lobe.schlick_fresnel; })
+    if (lobe.schlick_fresnel && !surface.perfect) return surface.r0() + (T(1) - surface.r0()) * fifth_power(T(one_minus_cos_d(w)));
+  return facet_reflectance<T>(lobe, T(w.cos_d), surface);
+}
+
 /// f_r in sr⁻¹ of a pair of directions above the horizon (cosines > 0). Deltas (the coherent part) evaluate to 0 here.
 template <class T, class G>
 T evaluate(const Brdf<T>& brdf, const Directions<G>& given, const Interface<T>& surface, const T& wavelength_um) {
   const Directions<G> w = brdf.retro ? turned_back(given) : given;
   const T rho_d = brdf.diffuse_times_r0() ? surface.r0() : T(1);
   const T lobe = std::visit(
-      [&](const auto& one) { return T(facet_reflectance<T>(one, T(w.cos_d), surface) * shape_of<T>(one, w, wavelength_um)); },
+      [&](const auto& one) { return T(facet_reflectance<T>(one, w, surface) * shape_of<T>(one, w, wavelength_um)); },
       brdf.lobe);
   return brdf.kd * rho_d / kPi<T> + brdf.ks * lobe;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/scaled_exp.h"
 #include "base/two_terms.h"
 #include "brdf/directions.h"
 
@@ -25,7 +26,7 @@ struct Lafortune {
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::exp, std::log, std::log1p;
+    using std::log, std::log1p;
     const T largest = larger_of(c_z, larger_of(c_x, c_y));
     const T delta = T(0.5) * T(square(w.hx) + square(w.hy) + square(w.cos_i - w.cos_o));
     const T x = excess(w, T(c_z - largest), delta) / largest;
@@ -33,9 +34,8 @@ struct Lafortune {
     const T s = plain_sum(w) / largest;
     const auto lit = !low || s > T(0);
     const T log_s = select(low, T(log(select(low && lit, s, T(1)))), T(log1p(select(low, T(0), x))));
-    const T power = form == LafortuneForm::normalised ? exp(n * log_s) : exp(n * (log_s + log(largest)));
-    const T scale = form == LafortuneForm::normalised ? (n + T(2)) / (T(2) * kPi<T>) : T(1);
-    return select(lit, T(scale * power), T(0));
+    if (form == LafortuneForm::normalised) return select(lit, scaled_exp(T((n + T(2)) / (T(2) * kPi<T>)), T(-n * log_s)), T(0));
+    return select(lit, T(fast_exp(T(n * (log_s + log(largest))))), T(0));
   }
 
  private:

@@ -23,7 +23,7 @@ struct ShiftedGamma {
   template <class G>
   T facet(const Directions<G>& w) const {
     const T c = T(w.cos_d);
-    const T u = T(square(w.ix - w.ox) + square(w.iy - w.oy) + square(w.cos_i - w.cos_o)) / (T(4) * (T(1) + c)), u2 = square(u);
+    const T u = T(one_minus_cos_d(w)), u2 = square(u);
     return larger_of(T(square(u2) * u + c * (f_normal + f0 * u * (T(1) + u) * (T(1) + u2))), T(0));
   }
   /// tan² of the angle with the normal.
