@@ -36,7 +36,8 @@ double inside(double x, const ParameterInfo& p, Precision precision) {
   return r;
 }
 
-/// The first sets are corners (each parameter at an end of its box or of the fit's), the others follow `u`.
+/// Of four sets one is a corner (each parameter at an end of its box or of the fit's), one from the fit's box, the others follow `u`
+/// over the documented one.
 std::vector<double> parameters(const ModelSpec& spec, std::size_t set, const std::vector<double>& u, Uniform& random, Precision precision,
                                const PointOptions& options) {
   const ModelInfo& info = spec.info();
@@ -44,8 +45,9 @@ std::vector<double> parameters(const ModelSpec& spec, std::size_t set, const std
   const bool corner = set % 4 == 1, scaled = set % 4 == 3;
   for (std::size_t p = 0; p < info.parameters.size(); ++p) {
     const ParameterInfo& one = info.parameters[p];
-    double hi = options.fit_box ? one.fit_hi : one.hi;
-    const double lo = options.fit_box ? one.fit_lo : one.lo;
+    const bool usual = options.fit_box || set % 4 == 2;
+    double hi = usual ? one.fit_hi : one.hi;
+    const double lo = usual ? one.fit_lo : one.lo;
     const bool rational_d = spec.variant() == "schlick-d" || spec.variant() == "schlick";
     if (rational_d && one.name == "m") hi = std::min(hi, 0.5);
     double value;

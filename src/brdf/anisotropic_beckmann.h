@@ -24,7 +24,7 @@ struct AnisotropicBeckmann {
     Directions<T> stretched{cos_i, cos_o, T(w.cos_d), T(w.tan2_h), stretch(T(w.ix), T(w.iy), cos_i),
                             stretch(T(w.ox), T(w.oy), cos_o)};
     const T scale = shadowing_masking<T>(shadowing, stretched, T(1)) / (T(4) * kPi<T> * alpha_x * alpha_y * cos_i * cos_o);
-    return scale * scaled_exp_squared(T(T(1) + T(w.tan2_h)), slopes);
+    return scaled_exp(scale, slopes, T(T(1) + T(w.tan2_h)));
   }
 
  private:

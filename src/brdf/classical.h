@@ -41,7 +41,7 @@ enum class BlinnScale { published, normalised, facet_area };
 /// Value of the law at tan²ζ, times `scale`; parameter n, c in 1/rad, or the spheroid's excentricity e:
 ///   cosⁿζ;  exp(-(c·ζ)²);  (e²/(cos²ζ·(e² - 1) + 1))², which integrates (with cos ζ, over the hemisphere) to π·e².
 template <class T>
-T blinn_density(BlinnDensity density, const T& tan2, const T& parameter, const T& scale) {
+T blinn_density(BlinnDensity density, const T& tan2, const T& parameter, const T& scale = T(1)) {
   using std::log1p;
   switch (density) {
     case BlinnDensity::cosine_power: return scaled_exp(scale, T(T(0.5) * parameter * log1p(tan2)));
@@ -96,7 +96,7 @@ struct CookTorrance {
     const T cos_i(w.cos_i), cos_o(w.cos_o), tan2(w.tan2_h);
     const T scale = v_cavity(T(w.cos_h()), cos_i, cos_o, T(w.cos_d)) / (kPi<T> * cos_i * cos_o);
     if (density == CookDensity::gaussian_angle) return scaled_exp(scale, T(square(T(angle_of(tan2) / alpha))));
-    return scale / square(alpha) * scaled_exp_squared(T(T(1) + tan2), T(tan2 / square(alpha)));
+    return scaled_exp(T(scale / square(alpha)), T(tan2 / square(alpha)), T(T(1) + tan2));
   }
 };
 

@@ -16,8 +16,8 @@ enum class LafortuneForm { as_published, normalised };
 /// Reciprocal; no Fresnel factor; E is not held below 1; f <= 1 as published, so E is bounded at grazing.
 /// Near its top the lobe is written about the mirror direction: with δ = ½|o - r|², i_z·o_z - i_x·o_x - i_y·o_y = 1 - δ, and
 ///   s/max(c) = 1 + x, x = (c_z - max)/max - δ·c_z/max + ((c_z - c_x)·i_x·o_x + (c_z - c_y)·i_y·o_y)/max,
-/// so that the n-th power, exp(n·log1p(x)), loses nothing at n = 1e5; below half of it s is summed with its rounding
-/// errors, since its terms may cancel. Where c_x = c_y = c_z it is Phong's lobe.
+/// so that the n-th power, exp(n·log1p(x)), loses nothing at n = 1e5; below half of it s is summed exactly, since
+/// its terms may cancel. Where c_x = c_y = c_z it is Phong's lobe.
 template <class T>
 struct Lafortune {
   static constexpr bool kFacets = false, kDiffracts = false;
@@ -47,13 +47,12 @@ struct Lafortune {
     sum = sum_of(sum, product_of(T(c_z - c_y), T(w.iy), T(w.oy)));
     return sum.value + sum.rest;
   }
-  /// c_z·i_z·o_z - c_x·i_x·o_x - c_y·i_y·o_y as if in twice the precision.
+  /// c_z·i_z·o_z - c_x·i_x·o_x - c_y·i_y·o_y, as if in three times the precision.
   template <class G>
   T plain_sum(const Directions<G>& w) const {
-    TwoTerms<T> sum = product_of(c_z, T(w.cos_i), T(w.cos_o));
-    sum = sum_of(sum, product_of(c_x, T(-w.ix), T(w.ox)));
-    sum = sum_of(sum, product_of(c_y, T(-w.iy), T(w.oy)));
-    return sum.value + sum.rest;
+    const TwoTerms<T> x = product_of(c_x, T(-w.ix)), y = product_of(c_y, T(-w.iy)), z = product_of(c_z, T(w.cos_i));
+    const T ox(w.ox), oy(w.oy), oz(w.cos_o);
+    return sum_of_products(std::array<T, 6>{z.value, x.value, y.value, z.rest, x.rest, y.rest}, std::array<T, 6>{oz, ox, oy, oz, ox, oy});
   }
 };
 

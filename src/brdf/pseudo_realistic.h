@@ -18,7 +18,7 @@ struct PseudoRealistic {
   template <class G>
   T shape(const Directions<G>& w) const {
     const T g = shadowing_masking<T>(Shadowing::v_cavity, w, slope_rms);
-    return g * thesis_slope_density(T(w.tan2_h), slope_rms) / (T(4) * T(w.cos_i) * T(w.cos_o));
+    return thesis_slope_density(T(w.tan2_h), slope_rms, T(g / (T(4) * T(w.cos_i) * T(w.cos_o))));
   }
 };
 

@@ -24,8 +24,8 @@ struct TorranceSparrow {
   template <class G>
   T shape(const Directions<G>& w) const {
     const bool rational_d = form == FacetForm::schlick_d || form == FacetForm::schlick;
-    const T d = rational_d ? schlick_d(T(w.tan2_h), alpha) : beckmann_d(T(w.tan2_h), alpha);
-    return d * masking(w) / (T(4) * T(w.cos_i) * T(w.cos_o));
+    const T scale = masking(w) / (T(4) * T(w.cos_i) * T(w.cos_o));
+    return rational_d ? schlick_d(T(w.tan2_h), alpha) * scale : beckmann_d(T(w.tan2_h), alpha, scale);
   }
 
  private:

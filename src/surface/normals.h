@@ -1,15 +1,19 @@
 #pragma once
 // surface: slope and normal laws, shadowing. m = slope rms (one-dimensional), alpha = √2·m = tan β0 of Beckmann.
-#include "base/number.h"
+#include "base/scaled_exp.h"
 
 namespace gonio {
 
 /// Beckmann's density of normals, per steradian; ∫ D cos dω = 1.
 /// Beckmann & Spizzichino 1963 (their p(β) as a density over solid angle); D = exp(-tan²ζ/α²)/(π α² cos⁴ζ).
+/// Times `scale`, which may bring back what float would flush.
+template <class T>
+T beckmann_d(const T& tan2_h, const T& alpha, const T& scale) {
+  return scaled_exp(T(scale / (kPi<T> * square(alpha))), T(tan2_h / square(alpha)), T(T(1) + tan2_h));
+}
 template <class T>
 T beckmann_d(const T& tan2_h, const T& alpha) {
-  using std::exp;
-  return exp(-tan2_h / square(alpha)) * square(T(1) + tan2_h) / (kPi<T> * square(alpha));
+  return beckmann_d(tan2_h, alpha, T(1));
 }
 
 /// Schlick 1992's rational density for Beckmann's, with its 1/π: (t - 1 + 2α²)³/(8π·t·α⁸), t = cos ζ, 0 below t = 1 - 2α²; meant for
@@ -23,11 +27,14 @@ T schlick_d(const T& tan2_h, const T& alpha) {
 }
 
 /// The thesis's slope law, Maillot 1996 eq. (28): P(ζ) = exp(-tan²ζ/(2m²))/(m √(2π) cos²ζ), a density over the angle ζ in
-/// a plane, not over solid angle.
+/// a plane, not over solid angle. Times `scale`.
+template <class T>
+T thesis_slope_density(const T& tan2_h, const T& slope_rms, const T& scale) {
+  return scaled_exp(T(scale * (T(1) + tan2_h) / (slope_rms * kSqrt2Pi<T>)), T(tan2_h / (T(2) * square(slope_rms))));
+}
 template <class T>
 T thesis_slope_density(const T& tan2_h, const T& slope_rms) {
-  using std::exp;
-  return exp(-tan2_h / (T(2) * square(slope_rms))) * (T(1) + tan2_h) / (slope_rms * kSqrt2Pi<T>);
+  return thesis_slope_density(tan2_h, slope_rms, T(1));
 }
 
 }  // namespace gonio
