@@ -18,8 +18,8 @@ struct PointError {
   double f, exact, relative;
 };
 
-/// A measured case. `relative` counts where f is bright: above 1e-290 for double, above 1e-6 of the set's peak for float, whose
-/// faint class runs from there down to 1e-30.
+/// A measured case. `relative` counts where f is bright: above 1e-290 for double, above 1e-6 of the set's peak for float (the largest f
+/// of its directions), whose faint class runs from there down to 1e-30.
 struct CaseError {
   std::string name, path;
   ModelSpec spec;

@@ -239,7 +239,7 @@ std::vector<BrdfPoint> brdf_points(const ModelSpec& spec, Precision precision, c
     const LobeWidth width = lobe_width(spec, point.values, perfect_interface<double>(), point.wavelength_um);
     Directions16 directions(width, random);
     for (std::size_t d = 0; d < options.directions; ++d) {
-      Pair pair = directions.next(d);
+      Pair pair = d == 0 ? Pair{{0, 0, 1}, {0, 0, 1}} : directions.next(d);
       if (spec.retro) pair.i.x = -pair.i.x, pair.i.y = -pair.i.y;
       point.i = rounded(pair.i, precision);
       point.o = rounded(pair.o, precision);

@@ -39,7 +39,7 @@ struct PointOptions {
 
 /// Points of a case, the same for the same options. Parameters: corners of the box, then a scrambled Sobol sequence, logarithmic
 /// where the box allows it (every fourth set with kd and ks at random, else kd = 0, ks = 1, so that nothing hides the lobe).
-/// Directions: all kinds in turn (uniform, on the lobe out to exp(-700) of its peak, next to the mirror and to retro, exactly
+/// Directions: the exact normal twice, then all kinds in turn (uniform, on the lobe out to exp(-700) of its peak, next to the mirror and to retro, exactly
 /// there, exact normal, grazing to 89.9999°).
 std::vector<BrdfPoint> brdf_points(const ModelSpec& spec, Precision precision, const PointOptions& options);
 

@@ -36,8 +36,8 @@ struct AshikhminShirley {
   T facet(const Directions<G>& w, const T& cos_d) const {
     using std::sqrt;
     if (form == AshikhminShirleyForm::schlick) return f0 + (T(1) - f0) * fifth_power(T(one_minus_cos_d(w)));
-    // Fresnel's law in n - 1 = 2√f0/(1-√f0), so that f0 → 0 loses nothing: g² = n² - 1 + c², g - c = (n²-1)/(g+c).
-    const T root = sqrt(f0), m = T(2) * root / (T(1) - root), contrast = m * (m + T(2));
+    // Fresnel's law in n - 1 = 2√f0/(1-√f0) = 2√f0·(1+√f0)/(1-f0), so that f0 → 0 loses nothing: g² = n² - 1 + c², g - c = (n²-1)/(g+c).
+    const T root = sqrt(f0), m = T(2) * root * (T(1) + root) / (T(1) - f0), contrast = m * (m + T(2));
     const T sum = sqrt(contrast + square(cos_d)) + cos_d, r_s = contrast / square(sum);
     return T(0.5) * square(r_s) * (T(1) + square(T((cos_d * sum - T(1)) / (cos_d * contrast / sum + T(1)))));
   }
