@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -26,12 +27,18 @@ struct EvalArguments {
   std::string precision = "double", input = "-";
 };
 
+/// Unit vectors towards light and eye.
+struct VectorPair {
+  UnitVector<double> i, o;
+};
+
 /// One row of the input: angles in degrees, and the wavelength where a column gives it.
 struct EvalRow {
   double theta_i_deg, theta_o_deg, phi_deg;
   std::optional<double> wavelength_nm;
   double phi_i_deg;  ///< from the grain; what anisotropic lobes look at
   const CsvRow* row;
+  std::optional<VectorPair> vectors = std::nullopt;  ///< in place of the angles, where the columns are components
 };
 
 /// The column under any of its names; -1 where optional and absent.
@@ -50,7 +57,37 @@ double zenith(std::string_view cell, std::string_view name, const std::string& f
   return value;
 }
 
+/// A row of components: z > 0, and unit length to float's rounding. They are used as they are; the angles are for the report.
+EvalRow vector_row(const std::array<int, 6>& columns, const CsvRow& row, const std::string& file) {
+  constexpr std::array kNames{"ix", "iy", "iz", "ox", "oy", "oz"};
+  std::array<double, 6> v;
+  for (std::size_t c = 0; c < 6; ++c) v[c] = csv_number(row.cells[columns[c]], kNames[c], file, row.line);
+  for (const std::size_t first : {0, 3}) {
+    const double length2 = square(v[first]) + square(v[first + 1]) + square(v[first + 2]);
+    if (!(v[first + 2] > 0 && std::abs(length2 - 1) < 1e-5))
+      throw input_error("{}:{}: {},{},{} is {},{},{}; expected a unit vector above the surface", file, row.line, kNames[first],
+                        kNames[first + 1], kNames[first + 2], v[first], v[first + 1], v[first + 2]);
+  }
+  const double degree = kPi<double> / 180;
+  const auto theta = [&](std::size_t first) { return std::atan2(std::hypot(v[first], v[first + 1]), v[first + 2]) / degree; };
+  const double phi_i = std::atan2(v[1], v[0]) / degree, phi_o = std::atan2(v[4], v[3]) / degree;
+  return {theta(0), theta(3), phi_o - phi_i, std::nullopt, phi_i, &row, VectorPair{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}};
+}
+
 std::vector<EvalRow> eval_rows(const CsvTable& table, const std::string& file) {
+  if (column(table, {"ix"}, file, false) >= 0) {
+    std::array<int, 6> columns;
+    for (std::size_t c = 0; const auto name : {"ix", "iy", "iz", "ox", "oy", "oz"}) columns[c++] = column(table, {name}, file);
+    const int wavelength = column(table, {"wavelength_nm"}, file, false);
+    std::vector<EvalRow> rows;
+    for (const CsvRow& row : table.rows) {
+      rows.push_back(vector_row(columns, row, file));
+      if (wavelength >= 0 && !row.cells[wavelength].empty())
+        rows.back().wavelength_nm = csv_number(row.cells[wavelength], "wavelength_nm", file, row.line);
+    }
+    if (rows.empty()) throw input_error("{}:{}: has no rows; expected at least one pair of directions", file, table.header_line);
+    return rows;
+  }
   const int theta_i = column(table, {"theta_i_deg"}, file), theta_o = column(table, {"theta_o_deg", "theta_r_deg"}, file);
   const int phi = column(table, {"phi_deg"}, file), wavelength = column(table, {"wavelength_nm"}, file, false);
   const int phi_i = column(table, {"phi_i_deg"}, file, false);
@@ -82,16 +119,31 @@ struct EvalResult {
   double f_r_per_sr, coherent_energy;
 };
 
+/// Directions from what the row gives, in the number type that evaluates them.
+template <class T>
+Directions<T> row_directions(const EvalRow& row) {
+  using S = scalar_t<T>;
+  if (!row.vectors) {
+    const auto w = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg, row.phi_i_deg);
+    if constexpr (is_lanes_v<T>) return spread<T>(w);
+    else return w;
+  }
+  const auto& [i, o] = *row.vectors;
+  return reduce(T(S(i.x)), T(S(i.y)), T(S(i.z)), T(S(o.x)), T(S(o.y)), T(S(o.z)));
+}
+
 EvalResult evaluate_row(const Subject& subject, const EvalRow& row, double wavelength_nm, const std::string& precision) {
   const ChosenModel& chosen = subject.model;
   const double wavelength_um = wavelength_nm / 1000;
   const Interface<double> surface = subject.surface.at(wavelength_nm);
-  const Directions<double> w = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg, row.phi_i_deg);
+  const Directions<double> w = row_directions<double>(row);
   const Brdf<double> brdf = make_brdf<double>(chosen.spec, chosen.values);
   double f;
   if (precision == "float") {
     const auto lanes = spread_brdf<FloatLanes>(chosen.spec, chosen.values);
-    f = evaluate(lanes, spread<FloatLanes>(w), spread<FloatLanes>(surface), FloatLanes(float(wavelength_um))).get(0);
+    f = evaluate(lanes, row_directions<FloatLanes>(row), spread<FloatLanes>(surface), FloatLanes(float(wavelength_um))).get(0);
+  } else if (precision == "reference" && row.vectors) {
+    f = reference_value(chosen.spec, chosen.values, row.vectors->i, row.vectors->o, surface, wavelength_um);
   } else if (precision == "reference") {
     f = reference_evaluate(chosen.spec, chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, surface, wavelength_um,
                            row.phi_i_deg)
@@ -140,7 +192,7 @@ void add_eval(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("eval", "Evaluate a model or a fit: rows of angles in, the same rows + f_r_per_sr out");
   command->footer("Example: printf 'theta_i_deg,theta_o_deg,phi_deg\\n30,40,180\\n' | gonio eval torrance-sparrow --set m=0.2 "
                   "--material Au --at 550\nColumns: theta_i_deg, theta_o_deg (or theta_r_deg), phi_deg = phi_o - phi_i (180: mirror "
-                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm].\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.");
+                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm];\nor unit vectors towards light and eye, ix,iy,iz,ox,oy,oz (z: normal).\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.");
   add_common(*command, common);
   auto arguments = std::make_shared<EvalArguments>();
   arguments->model.add_to(*command);
