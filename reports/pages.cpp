@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "assess/brdf_stability.h"
 #include "assess/interpolation_charts.h"
 #include "assess/kramers_kronig_charts.h"
 #include "assess/wavelength_charts.h"
@@ -98,6 +99,8 @@ std::set<std::string> files_of(const fs::path& folder) {
 
 const std::vector<PublishedPage>& published_pages() {
   static const std::vector<PublishedPage> pages{
+      {"brdf-stability", "where reflection models fail: published forms beside ours, energy above 1, validity of Kirchhoff's theory",
+       [](const fs::path&, const fs::path& folder) { write_brdf_stability(folder, true); }},
       {"interpolation", "what each interpolation variant loses on the database; the default of each class of data",
        [](const fs::path&, const fs::path& folder) { write_interpolation_errors(folder); }},
       {"kramers-kronig", "n and k from reflectance on cut bands, against metals whose n and k are known",

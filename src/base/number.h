@@ -44,6 +44,11 @@ T square(const T& x) {
   return x * x;
 }
 
+template <class T>
+T fifth_power(const T& x) {
+  return square(T(square(x))) * x;
+}
+
 /// a·b + c. Lanes and double round once where the machine can (xsimd 8 rounds twice there, and the build contracts nothing);
 /// the other types as written.
 template <class T>

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/scaled_exp.h"
 #include "brdf/directions.h"
 #include "optics/fresnel.h"
 
@@ -31,22 +32,23 @@ struct AshikhminShirley {
   T n_u, n_v, f0, rd;
   AshikhminShirleyForm form = AshikhminShirleyForm::schlick;
 
-  T facet(const T& cos_d) const {
+  template <class G>
+  T facet(const Directions<G>& w, const T& cos_d) const {
     using std::sqrt;
-    if (form == AshikhminShirleyForm::schlick) return schlick_fresnel(cos_d, f0);
-    // Fresnel's law in n - 1 = 2√f0/(1-√f0), so that f0 → 0 loses nothing: g² = n² - 1 + c², g - c = (n²-1)/(g+c).
-    const T root = sqrt(f0), m = T(2) * root / (T(1) - root), contrast = m * (m + T(2));
+    if (form == AshikhminShirleyForm::schlick) return f0 + (T(1) - f0) * fifth_power(T(one_minus_cos_d(w)));
+    // Fresnel's law in n - 1 = 2√f0/(1-√f0) = 2√f0·(1+√f0)/(1-f0), so that f0 → 0 loses nothing: g² = n² - 1 + c², g - c = (n²-1)/(g+c).
+    const T root = sqrt(f0), m = T(2) * root * (T(1) + root) / (T(1) - f0), contrast = m * (m + T(2));
     const T sum = sqrt(contrast + square(cos_d)) + cos_d, r_s = contrast / square(sum);
     return T(0.5) * square(r_s) * (T(1) + square(T((cos_d * sum - T(1)) / (cos_d * contrast / sum + T(1)))));
   }
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::exp, std::sqrt;
+    using std::sqrt;
     const T h_z2 = T(square(w.cos_i + w.cos_o)), cos_i = T(w.cos_i), cos_o = T(w.cos_o), cos_d = T(w.cos_d);
     const T exponent = T(0.5) * (n_u * T(square(w.hx)) + n_v * T(square(w.hy))) / h_z2 * T(log1p_over(w.tan2_h));
     const T scale = sqrt((n_u + T(1)) * (n_v + T(1))) / (T(8) * kPi<T>);
-    const T specular = scale * exp(-exponent) * facet(cos_d) / (cos_d * larger_of(cos_i, cos_o));
+    const T specular = scaled_exp(T(scale * facet(w, cos_d) / (cos_d * larger_of(cos_i, cos_o))), exponent);
     return specular + T(28) / (T(23) * kPi<T>) * rd * (T(1) - f0) * below(cos_i) * below(cos_o);
   }
 

@@ -33,14 +33,12 @@ struct BeckmannKirchhoff {
   T shape(const Directions<G>& w, const T& wavelength_um) const {
     const T cos_sum = T(w.cos_i) + T(w.cos_o), tan2_h(w.tan2_h), cosines = T(w.cos_i) * T(w.cos_o);
     if (form == KirchhoffForm::rough_limit)
-      return beckmann_d(tan2_h, T(T(2) * sigma_um / correlation_um)) / (T(4) * cosines);
+      return beckmann_d(tan2_h, T(T(2) * sigma_um / correlation_um), T(T(1) / (T(4) * cosines)));
     const T f_prime = T(0.5) * cos_sum * (T(1) + tan2_h);
     const T b = square(kPi<T> * correlation_um * cos_sum / wavelength_um) * tan2_h;  // v_xy²T²/4
     const T g = phase_variance(w, wavelength_um);
-    const bool whole_series = form == KirchhoffForm::series;
-    const T sum = whole_series ? diffraction_series(g, b) : g * fast_exp(T(-g - b));
-    const T scale = kPi<T> / T(scalar_t<T>(whole_series ? series_scale<T>() : 1));
-    return scale * square(T(correlation_um / wavelength_um)) * square(f_prime) * sum / cosines;
+    const T scale = kPi<T> * square(correlation_um / wavelength_um) * square(f_prime) / cosines;
+    return form == KirchhoffForm::series ? diffraction_series(g, b, scale) : scaled_exp(T(scale * g), T(g + b));
   }
 
   /// Share of the mirror's energy that stays coherent, exp(-g) at o = mirror of i (multiply by R(cos_i)).

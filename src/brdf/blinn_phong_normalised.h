@@ -1,4 +1,5 @@
 #pragma once
+#include "base/scaled_exp.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -22,10 +23,10 @@ struct BlinnPhongNormalised {
   template <class G>
   T shape(const Directions<G>& w) const {
     using std::exp, std::log1p;
-    const T power = exp(T(-0.5) * n * T(log1p(w.tan2_h)));
-    if (scale == BlinnPhongScale::projected) return (n + T(2)) / (T(2) * kPi<T>)*power;
+    const T exponent = T(0.5) * n * T(log1p(w.tan2_h));
+    if (scale == BlinnPhongScale::projected) return scaled_exp(T((n + T(2)) / (T(2) * kPi<T>)), exponent);
     const T half_power = exp(T(-0.34657359027997265470861606072908828404L) * n);  // 2^(-n/2)
-    return (n + T(2)) * (n + T(4)) / (T(8) * kPi<T> * (half_power + n)) * power;
+    return scaled_exp(T((n + T(2)) * (n + T(4)) / (T(8) * kPi<T> * (half_power + n))), exponent);
   }
 };
 

@@ -85,15 +85,23 @@ T facet_reflectance(const Lobe<T>& lobe, const T& cos_d, const Interface<T>& sur
   return std::visit([&](const auto& one) { return facet_reflectance<T>(one, cos_d, surface); }, lobe);
 }
 
+/// The same of a pair of directions: Schlick's power keeps its accuracy next to retro-reflection, where R0 may be smaller still.
+template <class T, class L, class G>
+T facet_reflectance(const L& lobe, const Directions<G>& w, const Interface<T>& surface) {
+  if constexpr (requires { lobe.schlick_fresnel; })
+    if (lobe.schlick_fresnel && !surface.perfect) return surface.r0() + (T(1) - surface.r0()) * fifth_power(T(one_minus_cos_d(w)));
+  return facet_reflectance<T>(lobe, T(w.cos_d), surface);
+}
+
 /// A lobe with the reflectance of its facets: sr⁻¹. Factors that come as fractions are divided once.
 template <class T, class L, class G>
 T lobe_value(const L& lobe, const Directions<G>& w, const Interface<T>& surface, const T& wavelength_um) {
   if constexpr (requires { lobe.shape_fraction(w); } && L::kFacets) {
     if constexpr (requires { lobe.schlick_fresnel; })
-      if (lobe.schlick_fresnel) return (lobe.shape_fraction(w) * whole(surface.schlick_reflectance(T(w.cos_d)))).value();
+      if (lobe.schlick_fresnel) return (lobe.shape_fraction(w) * whole(facet_reflectance<T>(lobe, w, surface))).value();
     return (lobe.shape_fraction(w) * surface.reflectance_of_cos2(T(w.cos2_d()))).value();
   } else {
-    return facet_reflectance<T>(lobe, T(w.cos_d), surface) * shape_of<T>(lobe, w, wavelength_um);
+    return facet_reflectance<T>(lobe, w, surface) * shape_of<T>(lobe, w, wavelength_um);
   }
 }
 

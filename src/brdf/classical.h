@@ -1,5 +1,6 @@
 #pragma once
-#include "base/special.h"
+#include "base/scaled_exp.h"
+#include "base/two_terms.h"
 #include "brdf/ggx.h"
 
 namespace gonio {
@@ -37,14 +38,15 @@ T angle_of(const T& tan2) {
 enum class BlinnDensity { cosine_power, gaussian_angle, spheroid };
 enum class BlinnScale { published, normalised, facet_area };
 
-/// Value of the law at tan²ζ; parameter n, c in 1/rad, or the spheroid's excentricity e:
+/// Value of the law at tan²ζ, times `scale`; parameter n, c in 1/rad, or the spheroid's excentricity e:
 ///   cosⁿζ;  exp(-(c·ζ)²);  (e²/(cos²ζ·(e² - 1) + 1))², which integrates (with cos ζ, over the hemisphere) to π·e².
 template <class T>
-T blinn_density(BlinnDensity density, const T& tan2, const T& parameter) {
+T blinn_density(BlinnDensity density, const T& tan2, const T& parameter, const T& scale = T(1)) {
+  using std::log1p;
   switch (density) {
-    case BlinnDensity::cosine_power: return pow_cos(tan2, parameter);
-    case BlinnDensity::gaussian_angle: return fast_exp(T(-square(T(parameter * angle_of(tan2)))));
-    case BlinnDensity::spheroid: return square(T((T(1) + tan2) / (T(1) + tan2 / square(parameter))));
+    case BlinnDensity::cosine_power: return scaled_exp(scale, T(T(0.5) * parameter * log1p(tan2)));
+    case BlinnDensity::gaussian_angle: return scaled_exp(scale, T(square(T(parameter * angle_of(tan2)))));
+    case BlinnDensity::spheroid: return scale * square(T((T(1) + tan2) / (T(1) + tan2 / square(parameter))));
   }
   return T(0);
 }
@@ -71,8 +73,8 @@ struct Blinn {
   template <class G>
   T shape(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o);
-    const T d = blinn_density(density, T(w.tan2_h), parameter);
-    return factor() * d * v_cavity(cos_i, cos_o, T(w.cos2_d())).value() / (cos_i * cos_o);
+    const T scale = factor() * v_cavity(cos_i, cos_o, T(w.cos2_d())).value() / (cos_i * cos_o);
+    return blinn_density(density, T(w.tan2_h), parameter, scale);
   }
 };
 
@@ -92,13 +94,9 @@ struct CookTorrance {
   template <class G>
   T shape(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o), tan2(w.tan2_h);
-    return law(tan2) * v_cavity(cos_i, cos_o, T(w.cos2_d())).value() / (kPi<T> * cos_i * cos_o);
-  }
-
- private:
-  T law(const T& tan2) const {
-    if (density == CookDensity::beckmann) return kPi<T> * beckmann_d(tan2, alpha);
-    return blinn_density(BlinnDensity::gaussian_angle, tan2, T(T(1) / alpha));
+    const T scale = v_cavity(cos_i, cos_o, T(w.cos2_d())).value() / (kPi<T> * cos_i * cos_o);
+    if (density == CookDensity::gaussian_angle) return scaled_exp(scale, T(square(T(angle_of(tan2) / alpha))));
+    return scaled_exp(T(scale / square(alpha)), T(tan2 / square(alpha)), T(T(1) + tan2));
   }
 };
 
@@ -108,7 +106,8 @@ enum class Highlight { mirror_direction, half_vector };
 /// Phong 1975 (CACM 18(6), doi:10.1145/360825.360839): highlight cosⁿs, s between o and the mirror image of i; Whitted 1980 (CACM
 /// 23(6), doi:10.1145/358876.358882) takes cosⁿζ_h for lights and a mirror (`mirror`) for the rest. Both are intensities:
 ///   f = cosⁿ/cos_i: not reciprocal, unbounded as cos_i → 0. The parameters hold all of the reflectance.
-/// 1 - cos s = ½|o - r|², r the mirror image: accurate for any n.
+/// 1 - cos s = ½|o - r|², r the mirror image: accurate for any n. Beyond 60° cos s = i_z·o_z - i_x·o_x - i_y·o_y is summed exactly: at
+/// s = 90° only the exact sum knows which cosine is left.
 template <class T>
 struct PhongHighlight {
   static constexpr bool kFacets = false, kDiffracts = false;
@@ -117,12 +116,15 @@ struct PhongHighlight {
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::log1p;
+    using std::log, std::log1p;
     const T cos_i(w.cos_i);
-    if (highlight == Highlight::half_vector) return pow_cos(T(w.tan2_h), n) / cos_i;
+    if (highlight == Highlight::half_vector) return scaled_exp(T(T(1) / cos_i), T(T(0.5) * n * log1p(T(w.tan2_h))));
     const T apart = T(0.5) * (square(T(w.hx)) + square(T(w.hy)) + square(T(w.cos_i) - T(w.cos_o)));
-    const auto facing = apart < T(1);
-    return select(facing, T(fast_exp(T(n * log1p(T(-select(facing, apart, T(0)))))) / cos_i), T(0));
+    const auto wide = apart > T(0.5);
+    const T cosine = sum_of_products(std::array<T, 3>{T(w.cos_i), T(-w.ix), T(-w.iy)}, std::array<T, 3>{T(w.cos_o), T(w.ox), T(w.oy)});
+    const auto facing = !wide || cosine > T(0);
+    const T log_cosine = select(wide, T(log(select(wide && facing, cosine, T(1)))), T(log1p(T(-select(wide, T(0), apart)))));
+    return select(facing, scaled_exp(T(T(1) / cos_i), T(-n * log_cosine)), T(0));
   }
 };
 

@@ -46,6 +46,12 @@ Directions<T> reduce(const T& ix, const T& iy, const T& iz, const T& ox, const T
           hy};
 }
 
+/// 1 - cos_d without loss next to retro-reflection, from |i - o|² = 4·sin²θ_d.
+template <class T>
+T one_minus_cos_d(const Directions<T>& w) {
+  return (square(T(w.ix - w.ox)) + square(T(w.iy - w.oy)) + square(T(w.cos_i - w.cos_o))) / (T(4) * (T(1) + w.cos_d));
+}
+
 /// i replaced by its mirror image about the normal, (-ix, -iy, iz): a lobe of these directions peaks towards the light.
 /// The "back vector" of Belcour et al. 2014, eq. (4).
 template <class T>

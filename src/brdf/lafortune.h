@@ -1,4 +1,5 @@
 #pragma once
+#include "base/scaled_exp.h"
 #include "base/two_terms.h"
 #include "brdf/directions.h"
 
@@ -15,8 +16,8 @@ enum class LafortuneForm { as_published, normalised };
 /// Reciprocal; no Fresnel factor; E is not held below 1; f <= 1 as published, so E is bounded at grazing.
 /// Near its top the lobe is written about the mirror direction: with δ = ½|o - r|², i_z·o_z - i_x·o_x - i_y·o_y = 1 - δ, and
 ///   s/max(c) = 1 + x, x = (c_z - max)/max - δ·c_z/max + ((c_z - c_x)·i_x·o_x + (c_z - c_y)·i_y·o_y)/max,
-/// so that the n-th power, exp(n·log1p(x)), loses nothing at n = 1e5; below half of it s is summed with its rounding
-/// errors, since its terms may cancel. Where c_x = c_y = c_z it is Phong's lobe.
+/// so that the n-th power, exp(n·log1p(x)), loses nothing at n = 1e5; below half of it s is summed exactly, since
+/// its terms may cancel. Where c_x = c_y = c_z it is Phong's lobe.
 template <class T>
 struct Lafortune {
   static constexpr bool kFacets = false, kDiffracts = false;
@@ -25,7 +26,7 @@ struct Lafortune {
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::exp, std::log, std::log1p;
+    using std::log, std::log1p;
     const T largest = larger_of(c_z, larger_of(c_x, c_y));
     const T delta = T(0.5) * T(square(w.hx) + square(w.hy) + square(w.cos_i - w.cos_o));
     const T x = excess(w, T(c_z - largest), delta) / largest;
@@ -33,9 +34,8 @@ struct Lafortune {
     const T s = plain_sum(w) / largest;
     const auto lit = !low || s > T(0);
     const T log_s = select(low, T(log(select(low && lit, s, T(1)))), T(log1p(select(low, T(0), x))));
-    const T power = form == LafortuneForm::normalised ? exp(n * log_s) : exp(n * (log_s + log(largest)));
-    const T scale = form == LafortuneForm::normalised ? (n + T(2)) / (T(2) * kPi<T>) : T(1);
-    return select(lit, T(scale * power), T(0));
+    if (form == LafortuneForm::normalised) return select(lit, scaled_exp(T((n + T(2)) / (T(2) * kPi<T>)), T(-n * log_s)), T(0));
+    return select(lit, T(fast_exp(T(n * (log_s + log(largest))))), T(0));
   }
 
  private:
@@ -47,13 +47,12 @@ struct Lafortune {
     sum = sum_of(sum, product_of(T(c_z - c_y), T(w.iy), T(w.oy)));
     return sum.value + sum.rest;
   }
-  /// c_z·i_z·o_z - c_x·i_x·o_x - c_y·i_y·o_y as if in twice the precision.
+  /// c_z·i_z·o_z - c_x·i_x·o_x - c_y·i_y·o_y, as if in three times the precision.
   template <class G>
   T plain_sum(const Directions<G>& w) const {
-    TwoTerms<T> sum = product_of(c_z, T(w.cos_i), T(w.cos_o));
-    sum = sum_of(sum, product_of(c_x, T(-w.ix), T(w.ox)));
-    sum = sum_of(sum, product_of(c_y, T(-w.iy), T(w.oy)));
-    return sum.value + sum.rest;
+    const TwoTerms<T> x = product_of(c_x, T(-w.ix)), y = product_of(c_y, T(-w.iy)), z = product_of(c_z, T(w.cos_i));
+    const T ox(w.ox), oy(w.oy), oz(w.cos_o);
+    return sum_of_products(std::array<T, 6>{z.value, x.value, y.value, z.rest, x.rest, y.rest}, std::array<T, 6>{oz, ox, oy, oz, ox, oy});
   }
 };
 

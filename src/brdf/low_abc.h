@@ -1,4 +1,5 @@
 #pragma once
+#include "base/scaled_exp.h"
 #include "brdf/directions.h"
 #include "surface/shadowing.h"
 
@@ -19,8 +20,8 @@ struct LowSmooth {
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::exp, std::log1p;
-    return a * exp(-c * log1p(b * T(w.tan2_h * square(w.cos_i + w.cos_o))));
+    using std::log1p;
+    return scaled_exp(a, T(c * log1p(b * T(w.tan2_h * square(w.cos_i + w.cos_o)))));
   }
 };
 
@@ -39,13 +40,13 @@ struct LowMicrofacet {
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::exp, std::log1p, std::sqrt;
+    using std::log1p, std::sqrt;
     const T t = T(w.tan2_h);
     const T one_minus_cos = t / ((T(1) + t) + sqrt(T(1) + t));  // 1 - 1/√(1+t)
     const T cos_i = T(w.cos_i), cos_o = T(w.cos_o);
     const T g = v_cavity(cos_i, cos_o, T(w.cos2_d())).value();
     const T divisor = scale == LowScale::tables ? kPi<T> : T(1);
-    return a * exp(-c * log1p(b * one_minus_cos)) * g / (divisor * cos_i * cos_o);
+    return scaled_exp(T(a * g / (divisor * cos_i * cos_o)), T(c * log1p(b * one_minus_cos)));
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "base/special.h"
+#include "base/two_terms.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -11,7 +12,8 @@ enum class OrenNayarForm { full, qualitative };
 ///   full         f = L1 + L2 with C1, C2, C3 of eqs. (41)-(43): below
 /// a = max(θ_i, θ_o), b = min; φ = φ_o - φ_i. Symbols: sigma_rad standard deviation of the facet angle; ρ = 1 (ks scales).
 /// With ρ = 1 the full form's interreflection L2 is that of white facets. Reciprocal; not exactly conserving (a fit to a
-/// simulation). sin a·tan b·cos φ = (i_xy·o_xy)/max(cos_i, cos_o): no angle is taken for it.
+/// simulation). sin a·tan b·cos φ = (i_xy·o_xy)/max(cos_i, cos_o): no angle is taken for it. Next to grazing the full form multiplies
+/// small differences by tan b: sin α - (2β/π)³ and 1 - |cos φ| = sin²φ/(1 + |cos φ|) are written without them.
 template <class T>
 struct OrenNayar {
   static constexpr bool kFacets = false, kDiffracts = false;
@@ -45,12 +47,17 @@ struct OrenNayar {
     // At the normal the terms with cos φ carry tan β = 0, and its value does not matter.
     const T sines = larger_of(T(sin_i * sin_o), T(1e-30));
     const T cos_phi = larger_of(T(-1), smaller_of(T(1), T(in_plane / sines)));
+    const T size_phi = larger_of(cos_phi, T(-cos_phi));
+    const T across = sum_of_products(std::array<T, 2>{T(w.ix), T(-w.iy)}, std::array<T, 2>{T(w.oy), T(w.ox)}) / sines, aside = square(across) / (T(1) + size_phi);
     const T two_beta = T(2) * beta / kPi<T>, wide = s2 / (s2 + T(0.09));
     const T c1 = T(1) - T(0.5) * s2 / (s2 + T(0.33));
-    const T c2 = T(0.45) * wide * select(in_plane >= T(0), sin_a, T(sin_a - square(two_beta) * two_beta));
+    // sin α - (2β/π)³ = (1 - (2β/π)³) - cos²α/(1 + sin α), with 1 - 2β/π from the other angle.
+    const T left = T(2) * angle(cos_b, sin_b) / kPi<T>;
+    const T steep = left * (T(1) + two_beta * (T(1) + two_beta)) - square(cos_a) / (T(1) + sin_a);
+    const T c2 = T(0.45) * wide * select(in_plane >= T(0), sin_a, steep);
     const T c3 = T(0.125) * wide * square(T(4) * alpha * beta / square(kPi<T>));
     const T half_tangent = (sin_a + sin_b) / (cos_a + cos_b);  // tan((α+β)/2)
-    const T once = c1 + cos_phi * c2 * tan_b + (T(1) - larger_of(cos_phi, T(-cos_phi))) * c3 * half_tangent;
+    const T once = c1 + cos_phi * c2 * tan_b + aside * c3 * half_tangent;
     const T twice = T(0.17) * s2 / (s2 + T(0.13)) * (T(1) - cos_phi * square(two_beta));
     return larger_of(T(0), T(once + twice)) / kPi<T>;
   }

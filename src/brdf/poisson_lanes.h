@@ -18,13 +18,12 @@ template <class S>
 struct LaneSeries {
   static constexpr double turn = 32, narrowest = 1.8, step = 0.86, cut = 1e-12;
   static constexpr int before = 10, after = 8;  ///< nodes on either side of X
-  static constexpr int power = 0;               ///< the sum is 2^power times as large
+  static constexpr int power = 90;              ///< the sum is 2^power times as large, and keeps the tails that a prefactor of 1e24 brings back
 };
-/// In float the sum is 2^60 times as large, so that the tails of a strongly peaked lobe stay within its range.
 template <>
 struct LaneSeries<float> {
   static constexpr double turn = 18, narrowest = 0.8, step = 1.2, cut = 2e-7;
-  static constexpr int before = 5, after = 4, power = 60;
+  static constexpr int before = 5, after = 4, power = 90;
 };
 
 /// Where the terms peak, X: X²·ln(X/g) = b; and c = ln(X/g), offset = X - g. Any X near the peak will do.
@@ -108,16 +107,16 @@ T poisson_lobe_sum_in_lanes(const T& g, const T& b) {
   return xsimd::all(low) ? terms : select(low, terms, sum_by_nodes(g, b, peak));
 }
 
-/// The series by the method that suits the number type: in lanes the one above, else poisson_lobe_sum. Times series_scale<T>.
+/// scale times the series, by the method that suits the number type: in lanes the one above, else poisson_lobe_sum.
 template <class T>
-T diffraction_series(const T& g, const T& b) {
-  if constexpr (is_lanes_v<std::remove_cvref_t<decltype(value_of(g))>>) return poisson_lobe_sum_in_lanes(g, b);
-  else return poisson_lobe_sum(g, b);
-}
-template <class T>
-double series_scale() {
-  if constexpr (is_lanes_v<std::remove_cvref_t<decltype(value_of(std::declval<T>()))>>) return std::ldexp(1.0, LaneSeries<scalar_t<T>>::power);
-  else return 1;
+T diffraction_series(const T& g, const T& b, const T& scale) {
+  using V = std::remove_cvref_t<decltype(value_of(g))>;
+  if constexpr (is_lanes_v<V>) {
+    const T half = T(scalar_t<V>(std::ldexp(1.0, -LaneSeries<scalar_t<V>>::power / 2)));
+    return poisson_lobe_sum_in_lanes(g, b) * half * scale * half;
+  } else {
+    return poisson_lobe_sum(g, b, scale);
+  }
 }
 
 }  // namespace gonio

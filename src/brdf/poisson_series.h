@@ -43,24 +43,29 @@ T poisson_deviance(const T& x, const T& d, const T& g) {
   return select(abs(v) < T(0.25), d * v + T(2) * x * v * v2 * odd, x * log(x / g) - d);
 }
 
-/// One term of the series at a real index x = g + d >= 1: Pois(x; g)/x · exp(-b/x), from its logarithm.
+/// One term of the series at a real index x = g + d >= 1: Pois(x; g)/x · exp(-b/x), from its logarithm; 2⁶⁰ times as large, and the
+/// exponential in two halves, so that in float a term is still there down to 1e-56: what multiplies the sum may be 1e24.
 template <class T>
 T poisson_lobe_term(const T& x, const T& d, const T& g, const T& b) {
   using std::exp, std::sqrt;
-  return exp(-stirling_error(x) - poisson_deviance(x, d, g) - b / x) / (x * sqrt(T(2) * kPi<T> * x));
+  const T half = T(0x1p30) * exp(T(-0.5) * (stirling_error(x) + poisson_deviance(x, d, g) + b / x));
+  return half / (x * sqrt(T(2) * kPi<T> * x)) * half;
 }
 
 /// Where the terms peak, less g: x² ln(x/g) = b, x = g·exp(W(2b/g²)/2), W Lambert's (Winitzki's approximation, 2 %: only
 /// the placing of the nodes depends on it).
 template <class T>
 T poisson_lobe_peak_offset(const T& g, const T& b) {
-  using std::expm1, std::log1p;
-  const T q = smaller_of(T(2) * b / g / g, T(1e30));
-  const T l = log1p(q);
-  return g * expm1(T(0.5) * l * (T(1) - log1p(l) / (T(2) + l)));
+  using std::exp, std::expm1, std::log, std::log1p;
+  // Smooth surfaces far from the mirror direction: 2b/g² leaves every range (1e60 and more), its logarithm does not.
+  const T log_g = log(g), q = T(2) * b / g / g;
+  const auto huge = q > T(1e12);
+  const T l = select(huge, T(log(select(huge, T(T(2) * b), T(1))) - T(2) * log_g), T(log1p(select(huge, T(0), q))));
+  const T half_w = T(0.5) * l * (T(1) - log1p(l) / (T(2) + l));
+  return select(huge, T(exp(half_w + log_g) - g), T(g * expm1(select(huge, T(0), half_w))));
 }
 
-/// Σ_{j>=1} Pois(j; g)/j · exp(-b/j): the diffraction series of Beckmann & Spizzichino 1963 (Maillot 1996 eq. (18a)),
+/// scale · Σ_{j>=1} Pois(j; g)/j · exp(-b/j): the diffraction series of Beckmann & Spizzichino 1963 (Maillot 1996 eq. (18a)),
 /// g > 0, b = v_xy²T²/4 >= 0.
 ///
 /// Summed from the largest term outwards until the rest is below the number type's precision. Where the terms are broad
@@ -68,7 +73,7 @@ T poisson_lobe_peak_offset(const T& g, const T& b) {
 /// keeps its accuracy with steps longer than 1: relative error about 2·exp(-2π²/step²), at any g, and also in the tails,
 /// since the nodes follow the peak of the whole term, not of the Poisson weights.
 template <class T>
-T poisson_lobe_sum(const T& g, const T& b) {
+T poisson_lobe_sum(const T& g, const T& b, const T& scale = T(1)) {
   using std::floor, std::sqrt;
   using Precision = SeriesPrecision<scalar_t<T>>;
   const auto g0 = value_of(g), b0 = value_of(b);
@@ -94,7 +99,7 @@ T poisson_lobe_sum(const T& g, const T& b) {
       if (!any(value_of(last) > V(Precision::cut) * value_of(sum))) break;
     }
   }
-  return T(step) * sum;
+  return T(step) * sum * T(0x1p-30) * scale * T(0x1p-30);
 }
 
 }  // namespace gonio

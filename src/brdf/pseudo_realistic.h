@@ -18,7 +18,7 @@ struct PseudoRealistic {
   template <class G>
   T shape(const Directions<G>& w) const {
     const T g = v_cavity(T(w.cos_i), T(w.cos_o), T(w.cos2_d())).value();
-    return g * thesis_slope_density(T(w.tan2_h), slope_rms) / (T(4) * T(w.cos_i) * T(w.cos_o));
+    return thesis_slope_density(T(w.tan2_h), slope_rms, T(g / (T(4) * T(w.cos_i) * T(w.cos_o))));
   }
 };
 

@@ -62,10 +62,11 @@ struct RoughDielectric {
   T alpha;
   DielectricNormals normals = DielectricNormals::ggx;
 
-  T density(const T& tan2_h) const {
-    if (normals == DielectricNormals::beckmann) return beckmann_d(tan2_h, alpha);
+  T density(const T& tan2_h) const { return density(tan2_h, T(1)); }
+  T density(const T& tan2_h, const T& scale) const {
+    if (normals == DielectricNormals::beckmann) return beckmann_d(tan2_h, alpha, scale);
     const T x = alpha * (T(1) + tan2_h) / (square(alpha) + tan2_h);
-    return square(x) / kPi<T>;
+    return scale * square(x) / kPi<T>;
   }
   /// Smith's masking of one direction; GGX: Λ = (√(1 + α²tan²) - 1)/2.
   T g1(const T& tan2) const {
@@ -77,15 +78,15 @@ struct RoughDielectric {
   /// Reflection, without R.
   template <class G>
   T shape(const Directions<G>& w) const {
-    return density(T(w.tan2_h)) * g1(T(w.tan2_i)) * g1(T(w.tan2_o)) / (T(4) * T(w.cos_i) * T(w.cos_o));
+    return density(T(w.tan2_h), T(g1(T(w.tan2_i)) * g1(T(w.tan2_o)) / (T(4) * T(w.cos_i) * T(w.cos_o))));
   }
 
   /// Refraction from i (z > 0) to o (z < 0), 1/sr, for radiance.
   T transmission(const UnitVector<T>& i, const UnitVector<T>& o, const T& n) const {
     const RefractingFacet<T> facet = refracting_facet(i, o, n);
     const T g = g1((square(i.x) + square(i.y)) / square(i.z)) * g1((square(o.x) + square(o.y)) / square(o.z));
-    return facet.a * facet.b / square(facet.length2) * square(n) * facet.transmittance * density(facet.tan2) * g /
-           (i.z * -o.z);
+    const T scale = facet.a * facet.b / square(facet.length2) * square(n) * facet.transmittance * g / (i.z * -o.z);
+    return density(facet.tan2, scale);
   }
 };
 

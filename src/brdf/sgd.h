@@ -1,7 +1,20 @@
 #pragma once
+#include "base/in_double.h"
+#include "base/special.h"
 #include "brdf/directions.h"
 
 namespace gonio {
+
+/// 1 + Λ·(1 - exp(((θ - θ0)/θ_c)^k)) of the direction (x, y, z), kept from falling below 0.
+template <class N>
+N fitted_g1(const N& x, const N& y, const N& z, const N& theta0, const N& theta_c, const N& k, const N& lambda) {
+  using std::atan, std::expm1, std::log, std::sqrt;
+  const N past = N(atan(sqrt(larger_of(N((square(x) + square(y)) / square(z)), N(1e-30))))) - theta0;
+  const auto shadowed = past > N(0);
+  const N ratio = select(shadowed, past, theta_c) / theta_c;
+  const N steep = fast_exp(smaller_of(N(k * log(ratio)), N(4)));
+  return select(shadowed, larger_of(N(N(1) - lambda * expm1(smaller_of(steep, N(50)))), N(0)), N(1));
+}
 
 /// Bagher, Soler & Holzschuch 2012 (Comput. Graph. Forum 31(4), 1509, doi:10.1111/j.1467-8659.2012.03147.x), shifted gamma:
 ///   f = F·D(h)·G1(i)·G1(o)/(π·cos_i·cos_o),
@@ -13,7 +26,7 @@ namespace gonio {
 /// K and G1's constants are inputs, as tabulated; nothing checks that they belong to alpha and p. ks is ρs; the 1/π is the
 /// tables' (with it they agree with Low's fits of the same materials, not with 4).
 /// Reciprocal. F and the fitted G1 are kept from falling below 0. Where Λ = 0 there is no shadowing and E is unbounded at
-/// grazing. G1 is steep (k to 900): in float it loses up to k·1e-7.
+/// grazing. G1 is steep (k to 900), so float lanes take it in double.
 template <class T>
 struct ShiftedGamma {
   static constexpr bool kFacets = false, kDiffracts = false;
@@ -23,17 +36,14 @@ struct ShiftedGamma {
   template <class G>
   T facet(const Directions<G>& w) const {
     const T c = T(w.cos_d);
-    const T u = T(square(w.ix - w.ox) + square(w.iy - w.oy) + square(w.cos_i - w.cos_o)) / (T(4) * (T(1) + c)), u2 = square(u);
+    const T u = T(one_minus_cos_d(w)), u2 = square(u);
     return larger_of(T(square(u2) * u + c * (f_normal + f0 * u * (T(1) + u) * (T(1) + u2))), T(0));
   }
-  /// tan² of the angle with the normal.
-  T g1(const T& tan2) const {
-    using std::atan, std::exp, std::expm1, std::log, std::sqrt;
-    const T past = atan(sqrt(larger_of(tan2, T(1e-30)))) - theta0;
-    const auto shadowed = past > T(0);
-    const T ratio = select(shadowed, past, theta_c) / theta_c;
-    const T steep = exp(smaller_of(T(k * log(ratio)), T(4)));
-    return select(shadowed, larger_of(T(T(1) - lambda * expm1(smaller_of(steep, T(50)))), T(0)), T(1));
+  /// Of a direction, from its components: tan² rounded to float would cost k times that rounding.
+  T g1(const T& x, const T& y, const T& z) const {
+    return in_double([]<class N>(const N& x, const N& y, const N& z, const N& theta0, const N& theta_c, const N& k,
+                                 const N& lambda) { return fitted_g1(x, y, z, theta0, theta_c, k, lambda); },
+                     x, y, z, theta0, theta_c, k, lambda);
   }
   template <class G>
   T shape(const Directions<G>& w) const {
@@ -42,7 +52,7 @@ struct ShiftedGamma {
     // In two halves: exp of the whole would leave float's range long before f does.
     const T half = exp(T(0.5) * (-tau - p * log(tau)) + log1p(t));
     const T d = k_norm / kPi<T> * half;
-    const T rest = facet(w) * g1(T(w.tan2_i)) * g1(T(w.tan2_o)) / (kPi<T> * T(w.cos_i) * T(w.cos_o));
+    const T rest = facet(w) * g1(T(w.ix), T(w.iy), T(w.cos_i)) * g1(T(w.ox), T(w.oy), T(w.cos_o)) / (kPi<T> * T(w.cos_i) * T(w.cos_o));
     return d * rest * half;
   }
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/scaled_exp.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -22,13 +23,13 @@ struct Ward {
 
   template <class G>
   T shape(const Directions<G>& w) const {
-    using std::exp, std::sqrt;
+    using std::sqrt;
     const T cos_i(w.cos_i), cos_o(w.cos_o), h_z = cos_i + cos_o;
     const T slopes = square(T(w.hx) / (alpha_x * h_z)) + square(T(w.hy) / (alpha_y * h_z));
-    const T e = exp(-slopes) / (T(4) * kPi<T> * alpha_x * alpha_y);
-    if (form == WardForm::ward_1992) return e / sqrt(cos_i * cos_o);
-    if (form == WardForm::duer_2006) return e / (cos_i * cos_o);
-    return e * T(4) * (T(1) + T(w.tan2_h)) / square(h_z);  // |h|²/h_z⁴ = (1 + tan²θ_h)/h_z²
+    const T scale = T(1) / (T(4) * kPi<T> * alpha_x * alpha_y);
+    if (form == WardForm::ward_1992) return scaled_exp(T(scale / sqrt(cos_i * cos_o)), slopes);
+    if (form == WardForm::duer_2006) return scaled_exp(T(scale / (cos_i * cos_o)), slopes);
+    return scaled_exp(T(scale * T(4) * (T(1) + T(w.tan2_h)) / square(h_z)), slopes);  // |h|²/h_z⁴ = (1 + tan²θ_h)/h_z²
   }
 };
 

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <memory>
 
+#include "assess/brdf_stability.h"
 #include "assess/kramers_kronig_charts.h"
 #include "base/error.h"
 #include "cli/commands.h"
@@ -10,21 +11,22 @@ namespace gonio::cli {
 void add_assess_stability(CLI::App& assess, Common& common) {
   auto* command = assess.add_subcommand(
       "stability",
-      "kramers-kronig: n, k from reflectance on cut bands, against metals whose n, k are known, and how wide an "
+      "brdf: where reflection models fail, published forms beside ours, worst points, energy, validity; kramers-kronig: n, k from reflectance on cut bands, against metals whose n, k are known, and how wide an "
       "interval is honest");
-  command->footer("Example: gonio assess stability kramers-kronig --out out/kramers-kronig");
+  command->footer("Example: gonio assess stability brdf --out out/brdf-stability");
   add_common(*command, common);
   struct Arguments {
     std::string what, out;
   };
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("what", arguments->what, "kramers-kronig")->required();
+  command->add_option("what", arguments->what, "brdf or kramers-kronig")->required();
   command->add_option("-o,--out", arguments->out, "Folder for CSV tables, SVG plots and README.md (out/assess/WHAT)");
   command->callback([arguments] {
-    if (arguments->what != "kramers-kronig")
-      throw input_error("gonio assess stability: no map {}; expected kramers-kronig", arguments->what);
+    if (arguments->what != "kramers-kronig" && arguments->what != "brdf")
+      throw input_error("gonio assess stability: no map {}; expected brdf or kramers-kronig", arguments->what);
     const std::string out = arguments->out.empty() ? "out/assess/" + arguments->what : arguments->out;
-    write_kramers_kronig_charts(out);
+    if (arguments->what == "brdf") write_brdf_stability(out);
+    else write_kramers_kronig_charts(out);
     std::cout << out << '\n';
   });
 }

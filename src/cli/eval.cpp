@@ -97,7 +97,7 @@ void add_eval(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("eval", "Evaluate a model or a fit: rows of angles in, the same rows + f_r_per_sr out");
   command->footer("Example: printf 'theta_i_deg,theta_o_deg,phi_deg\\n30,40,180\\n' | gonio eval torrance-sparrow --set m=0.2 "
                   "--material Au --at 550\nColumns: theta_i_deg, theta_o_deg (or theta_r_deg), phi_deg = phi_o - phi_i (180: mirror "
-                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm].\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.\n"
+                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm];\nor unit vectors towards light and eye, ix,iy,iz,ox,oy,oz (z: normal).\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.\n"
                   "rough-dielectric: with theta_o_deg above 90, up to 180, it is f_t of the transmitted radiance; n is that of the far over the near side.\n"
                   "Polarised light: s = k x n, p = k x s for the propagation direction k and the mean normal n; --polarisation gives f_r of linearly\n"
                   "polarised light at an angle from s towards p, received in any polarisation; --mueller appends m11 (= f_r) and m12 .. m44, divided\n"

@@ -1,5 +1,6 @@
 #include "cli/eval_row.h"
 
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -53,8 +54,18 @@ struct Evaluation {
   Azimuth<double> azimuth() const { return azimuth_from_deg(row.phi_deg); }
   UnitVector<double> i() const { return direction_from_deg(row.theta_i_deg, Azimuth<double>{0, 2}); }
   UnitVector<double> o() const { return direction_from_deg(row.theta_o_deg, azimuth()); }
-  Directions<double> above() const {
-    return directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg, row.phi_i_deg);
+  Directions<double> above() const { return directions<double>(); }
+  /// Directions from what the row gives; vectors are rounded to the number type that evaluates them, then reduced in it.
+  template <class T>
+  Directions<T> directions() const {
+    using S = scalar_t<T>;
+    if (row.vectors) {
+      const auto& [i, o] = *row.vectors;
+      return reduce(T(S(i.x)), T(S(i.y)), T(S(i.z)), T(S(o.x)), T(S(o.y)), T(S(o.z)));
+    }
+    const auto w = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg, row.phi_i_deg);
+    if constexpr (is_lanes_v<T>) return spread<T>(w);
+    else return w;
   }
   double patch() const {
     if (row.transmitted()) return 0;
@@ -65,6 +76,8 @@ struct Evaluation {
 
 double unpolarised(const Evaluation& e, const std::string& precision) {
   const EvalRow& row = e.row;
+  if (precision == "reference" && row.vectors)
+    return reference_value(e.chosen.spec, e.chosen.values, row.vectors->i, row.vectors->o, e.surface, e.wavelength_um);
   if (precision == "reference" && !row.transmitted())
     return reference_evaluate(e.chosen.spec, e.chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, e.surface,
                               e.wavelength_um, row.phi_i_deg)
@@ -79,7 +92,7 @@ double unpolarised(const Evaluation& e, const std::string& precision) {
   const auto surface = spread<FloatLanes>(e.surface);
   if (row.transmitted())
     return evaluate_transmission(lanes, spread<FloatLanes>(e.i()), spread<FloatLanes>(e.o()), surface).get(0);
-  return evaluate(lanes, spread<FloatLanes>(e.above()), surface, FloatLanes(float(e.wavelength_um))).get(0);
+  return evaluate(lanes, e.directions<FloatLanes>(), surface, FloatLanes(float(e.wavelength_um))).get(0);
 }
 
 /// The matrix, and f of the light asked for; the coherent part of a patch included.
@@ -122,6 +135,7 @@ PolarisedValue polarised(const Evaluation& e, const std::string& precision, cons
 }
 
 void check_polarisation(const Evaluation& e) {
+  if (e.row.vectors) throw input_error("ix,iy,iz,ox,oy,oz: no azimuth is taken from unit vectors; expected angles with polarised light");
   if (states_polarisation(e.brdf) || e.brdf.ks == 0) return;
   throw input_error("{}{}: does not state what becomes of polarisation; expected a faceted model (R of its facets), not turned back",
                     e.chosen.spec.info().name, e.brdf.retro ? " with retro=yes" : "");
@@ -135,9 +149,41 @@ void check_transparent(const Evaluation& e) {
                       e.surface.k, kTransparentK);
 }
 
+/// A row of components: z > 0, and unit length to float's rounding. They are used as they are; the angles are for the report.
+EvalRow vector_row(const std::array<int, 6>& columns, const CsvRow& row, const std::string& file) {
+  constexpr std::array kNames{"ix", "iy", "iz", "ox", "oy", "oz"};
+  std::array<double, 6> v;
+  for (std::size_t c = 0; c < 6; ++c) v[c] = csv_number(row.cells[columns[c]], kNames[c], file, row.line);
+  for (const std::size_t first : {0, 3}) {
+    const double length2 = square(v[first]) + square(v[first + 1]) + square(v[first + 2]);
+    if (!(v[first + 2] > 0 && std::abs(length2 - 1) < 1e-5))
+      throw input_error("{}:{}: {},{},{} is {},{},{}; expected a unit vector above the surface", file, row.line, kNames[first],
+                        kNames[first + 1], kNames[first + 2], v[first], v[first + 1], v[first + 2]);
+  }
+  const double degree = kPi<double> / 180;
+  const auto theta = [&](std::size_t first) { return std::atan2(std::hypot(v[first], v[first + 1]), v[first + 2]) / degree; };
+  const double phi_i = std::atan2(v[1], v[0]) / degree, phi_o = std::atan2(v[4], v[3]) / degree;
+  return {theta(0), theta(3), phi_o - phi_i, std::nullopt, phi_i, &row, VectorPair{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}};
+}
+
+std::vector<EvalRow> vector_rows(const CsvTable& table, const std::string& file) {
+  std::array<int, 6> columns;
+  for (std::size_t c = 0; const auto name : {"ix", "iy", "iz", "ox", "oy", "oz"}) columns[c++] = column(table, {name}, file);
+  const int wavelength = column(table, {"wavelength_nm"}, file, false);
+  std::vector<EvalRow> rows;
+  for (const CsvRow& row : table.rows) {
+    rows.push_back(vector_row(columns, row, file));
+    if (wavelength >= 0 && !row.cells[wavelength].empty())
+      rows.back().wavelength_nm = csv_number(row.cells[wavelength], "wavelength_nm", file, row.line);
+  }
+  if (rows.empty()) throw input_error("{}:{}: has no rows; expected at least one pair of directions", file, table.header_line);
+  return rows;
+}
+
 }  // namespace
 
 std::vector<EvalRow> eval_rows(const CsvTable& table, const std::string& file, bool transmits) {
+  if (column(table, {"ix"}, file, false) >= 0) return vector_rows(table, file);
   const int theta_i = column(table, {"theta_i_deg"}, file), theta_o = column(table, {"theta_o_deg", "theta_r_deg"}, file);
   const int phi = column(table, {"phi_deg"}, file), wavelength = column(table, {"wavelength_nm"}, file, false);
   const int phi_i = column(table, {"phi_i_deg"}, file, false);

@@ -15,9 +15,9 @@ Brdf<Digits50> brdf_in_50(const ModelSpec& spec, std::span<const double> values)
   return make_brdf<Digits50>(spec, std::vector<Digits50>(values.begin(), values.end()));
 }
 
-Digits evaluate_in_50(const ModelSpec& spec, std::span<const double> values, const Directions<Digits50>& w,
-                      const Interface<double>& surface, double wavelength_um) {
-  return as_digits(evaluate(brdf_in_50(spec, values), w, in_50(surface), Digits50(wavelength_um)));
+Digits50 value_in_50(const ModelSpec& spec, std::span<const double> values, const Directions<Digits50>& w,
+                     const Interface<double>& surface, double wavelength_um) {
+  return evaluate(brdf_in_50(spec, values), w, in_50(surface), Digits50(wavelength_um));
 }
 
 Mueller<double> rounded(const Mueller<Digits50>& exact) {
@@ -32,7 +32,7 @@ Mueller<double> rounded(const Mueller<Digits50>& exact) {
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
                           double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg) {
   const auto w = directions_from_deg<Digits50>(Digits50(theta_i_deg), Digits50(theta_o_deg), Digits50(phi_deg), Digits50(phi_i_deg));
-  return evaluate_in_50(spec, values, w, surface, wavelength_um);
+  return as_digits(value_in_50(spec, values, w, surface, wavelength_um));
 }
 
 Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values, const Directions<double>& w,
@@ -40,7 +40,13 @@ Digits reference_evaluate(const ModelSpec& spec, std::span<const double> values,
   const Directions<Digits50> exact{Digits50(w.cos_i),  Digits50(w.cos_o),  Digits50(w.cos_d),
                                    Digits50(w.tan2_h), Digits50(w.tan2_i), Digits50(w.tan2_o), Digits50(w.ix), Digits50(w.iy),
                                    Digits50(w.ox),     Digits50(w.oy),     Digits50(w.hx),     Digits50(w.hy)};
-  return evaluate_in_50(spec, values, exact, surface, wavelength_um);
+  return as_digits(value_in_50(spec, values, exact, surface, wavelength_um));
+}
+
+double reference_value(const ModelSpec& spec, std::span<const double> values, const UnitVector<double>& i, const UnitVector<double>& o,
+                       const Interface<double>& surface, double wavelength_um) {
+  const auto w = reduce(Digits50(i.x), Digits50(i.y), Digits50(i.z), Digits50(o.x), Digits50(o.y), Digits50(o.z));
+  return value_in_50(spec, values, w, surface, wavelength_um).convert_to<double>();
 }
 
 PolarisedValue reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,

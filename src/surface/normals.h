@@ -1,6 +1,7 @@
 #pragma once
 // surface: slope and normal laws, shadowing. m = slope rms (one-dimensional), alpha = √2·m = tan β0 of Beckmann.
-#include "base/special.h"
+#include "base/ratio.h"
+#include "base/scaled_exp.h"
 
 namespace gonio {
 
@@ -9,9 +10,13 @@ namespace gonio {
 /// The exponential as the square of its scaled root: 1/(π α² 4 cos_i cos_o) reaches 1e18, and f keeps its digits long after
 /// exp(-tan²ζ/α²) has left the range of float.
 template <class T>
+Ratio<T> gaussian_fraction(const T& slopes, const T& one_plus_tan2, const T& norm) {
+  const T scale(16777216.0);
+  return {square(T(exp_of_decay<0>(T(T(-0.5) * slopes)) * (scale * one_plus_tan2))), square(scale) * norm};
+}
+template <class T>
 Ratio<T> beckmann_fraction(const T& tan2_h, const T& alpha) {
-  const T scale(16777216.0), minus_half_inverse = T(-0.5) / square(alpha);
-  return {square(T(exp_of_decay<0>(T(tan2_h * minus_half_inverse)) * (scale * (T(1) + tan2_h)))), square(scale) * kPi<T> * square(alpha)};
+  return gaussian_fraction(T(tan2_h * (T(1) / square(alpha))), T(T(1) + tan2_h), T(kPi<T> * square(alpha)));
 }
 template <class T>
 T beckmann_d(const T& tan2_h, const T& alpha) {
@@ -29,10 +34,14 @@ T schlick_d(const T& tan2_h, const T& alpha) {
 }
 
 /// The thesis's slope law, Maillot 1996 eq. (28): P(ζ) = exp(-tan²ζ/(2m²))/(m √(2π) cos²ζ), a density over the angle ζ in
-/// a plane, not over solid angle.
+/// a plane, not over solid angle. Times `scale`.
+template <class T>
+T thesis_slope_density(const T& tan2_h, const T& slope_rms, const T& scale) {
+  return scaled_exp(T(scale * (T(1) + tan2_h) / (slope_rms * kSqrt2Pi<T>)), T(tan2_h / (T(2) * square(slope_rms))));
+}
 template <class T>
 T thesis_slope_density(const T& tan2_h, const T& slope_rms) {
-  return fast_exp(T(-tan2_h / (T(2) * square(slope_rms)))) * (T(1) + tan2_h) / (slope_rms * kSqrt2Pi<T>);
+  return thesis_slope_density(tan2_h, slope_rms, T(1));
 }
 
 }  // namespace gonio

@@ -10,7 +10,6 @@
 #include "brdf/lanes.h"
 #include "brdf/sampling.h"
 #include "catch.h"
-#include "reference/reference.h"
 
 using namespace gonio;
 
@@ -93,37 +92,6 @@ TEST_CASE("Every model is finite, non-negative and reciprocal over its box, graz
             if (f < 1e30) REQUIRE(std::isfinite(fast));
           }
     }
-}
-
-TEST_CASE("Double and float lanes agree with 50 digits", "[brdf]") {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  for (const ModelSpec& spec : specs()) {
-    double worst_double = 0, worst_float = 0;
-    for (int i = 0; i < 60; ++i) {
-      std::vector<double> values;
-      for (const ParameterInfo& p : spec.info().parameters)
-        values.push_back(p.linear ? 0.1 + uniform(random) : p.fit_lo * std::pow(p.fit_hi / p.fit_lo, uniform(random)));
-      const double ti = 89.9 * uniform(random), to = std::clamp(ti + 20 * (uniform(random) - 0.5), 0.0, 89.9), phi = 160 + 40 * uniform(random);
-      const Directions<double> w = directions_from_deg(ti, to, phi);
-      const double exact = reference_evaluate(spec, values, ti, to, phi, kMetal, kUm).value;
-      const double f = evaluate(make_brdf<double>(spec, values), w, kMetal, kUm);
-      worst_double = std::max(worst_double, std::abs(f - exact) / exact);
-      const auto lanes = spread_brdf<FloatLanes>(spec, values);
-      const float fast = evaluate(lanes, spread<FloatLanes>(w), spread<FloatLanes>(kMetal), FloatLanes(float(kUm))).get(0);
-      const Directions<float> wf{float(w.cos_i), float(w.cos_o), float(w.cos_d), float(w.tan2_h), float(w.tan2_i), float(w.tan2_o),
-                                 float(w.ix), float(w.iy), float(w.ox), float(w.oy), float(w.hx), float(w.hy)};
-      const std::vector<float> vf(values.begin(), values.end());
-      const Directions<double> given{wf.cos_i, wf.cos_o, wf.cos_d, wf.tan2_h, wf.tan2_i, wf.tan2_o, wf.ix, wf.iy, wf.ox, wf.oy, wf.hx, wf.hy};
-      const std::vector<double> rounded(vf.begin(), vf.end());
-      const Interface<double> metal{double(float(kMetal.n)), double(float(kMetal.k))};
-      const double exact_f = reference_evaluate(spec, rounded, given, metal, double(float(kUm))).value;
-      worst_float = std::max(worst_float, std::abs(fast - exact_f) / exact_f);
-    }
-    INFO(spec.info().name << " " << name_of(spec.shadowing) << ": double " << worst_double << ", float " << worst_float);
-    CHECK(worst_double < (spec.info().needs_wavelength ? 1e-10 : 1e-12));
-    CHECK(worst_float < 2e-5);
-  }
 }
 
 TEST_CASE("Derivatives come out of the models' own code", "[brdf]") {
