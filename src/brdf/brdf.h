@@ -154,7 +154,7 @@ T coherent_share(const Lobe<T>& lobe, const C& cos_i, const T& wavelength_um) {
   if (std::holds_alternative<Mirror>(lobe)) return T(1);
   if (const auto* he = std::get_if<HeTorrance<T>>(&lobe)) return he->coherent_share(cos_i, wavelength_um);
   const auto* kirchhoff = std::get_if<BeckmannKirchhoff<T>>(&lobe);
-  if (!kirchhoff || kirchhoff->form != KirchhoffForm::series) return T(0);
+  if (!kirchhoff || !kirchhoff->has_coherent_part()) return T(0);
   return kirchhoff->coherent_share(cos_i, wavelength_um);
 }
 

@@ -30,7 +30,7 @@ std::vector<ModelInfo> thesis_models() {
        {{"sigma_um", "um", "height rms", 1e-4, 1e3, 0.02, 5, std::nullopt},
         {"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100, std::nullopt},
         kKd, kKs},
-       {}, {"exact", "rough-limit", "smooth-limit"}, true, false, false, true},
+       {}, {"exact", "rough-limit", "smooth-limit", "nieto-vesperinas-1982"}, true, false, false, true, {"nieto-vesperinas-1982"}},
   };
 }
 
@@ -66,6 +66,11 @@ std::size_t ModelInfo::index_of(std::string_view parameter) const {
     known += fmt::format("{}{}", known.empty() ? "" : ", ", parameters[i].name);
   }
   throw input_error("{}: unknown parameter of {}; expected {}", parameter, name, known);
+}
+
+bool ModelSpec::reciprocal() const {
+  const auto& exceptions = info().variants_not_reciprocal;
+  return info().reciprocal && std::find(exceptions.begin(), exceptions.end(), variant()) == exceptions.end();
 }
 
 void set_retro(ModelSpec& spec, std::string_view yes_or_no) {

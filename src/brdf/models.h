@@ -34,6 +34,7 @@ struct ModelInfo {
   std::vector<std::string_view> shadowings;
   std::vector<std::string_view> variants;  ///< the first is the default; the order is that of the lobe's own form enum
   bool reciprocal, conserving, bounded_at_grazing, needs_wavelength;
+  std::vector<std::string_view> variants_not_reciprocal{};  ///< variants that break the model's claim
 
   /// Position in `parameters`; InputError naming the model's parameters when unknown.
   std::size_t index_of(std::string_view parameter) const;
@@ -54,6 +55,7 @@ struct ModelSpec {
 
   const ModelInfo& info() const { return model(id); }
   std::string_view variant() const { return info().variants[form]; }
+  bool reciprocal() const;  ///< the model's claim, unless the variant breaks it
 };
 
 /// Sets `shadowing=`, the variant or `retro=` by name; InputError when the model has no such choice.
