@@ -20,14 +20,14 @@ struct Specimen {
 /// Both scales; fine alone; the raw σ at the fine correlation length.
 std::vector<Curve> specimen_curves(const Specimen& s, const Interface<double>& aluminium) {
   std::vector<Curve> curves{{"both scales", {}}};
-  for (int n = 0; n <= 170; ++n) {
-    const double theta_o = -80 + n;
+  for (int n = 0; n <= 680; ++n) {
+    const double theta_o = -80 + 0.25 * n;
     const double r = aluminium.reflectance(std::cos(0.5 * (kTheta + theta_o) * kPi<double> / 180));
     curves[0].points.emplace_back(theta_o, r * two_scale_power_per_sr(s.fine_um, kFine, s.waves_um(), kWaves, kTheta, theta_o, kUm));
   }
   const auto one = [&](const std::string& name, double sigma) {
     curves.push_back(power_curve(fmt::format("{} σ = {:g} µm", name, sigma), BeckmannKirchhoff<double>{sigma, kFine}, aluminium, kTheta,
-                                 -80, 90, 1, kUm));
+                                 -80, 90, 0.25, kUm));
   };
   one("high-frequency", s.fine_um), one("raw", s.raw_um);
   return curves;

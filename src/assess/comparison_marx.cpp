@@ -30,7 +30,7 @@ Curve profile_curve(std::string name, const Specimen& s, ProfileFactor factor, c
 
 Chart specimen_chart(const std::string& file, const Specimen& s, const Interface<double>& steel) {
   Chart chart{file, fmt::format("Steel, σ = {:g} µm, T = {:g} µm, λ = 0.6328 µm, incidence 54°", s.sigma_um, s.correlation_um),
-              "diffuse power / that in the mirror direction", 1e-4, 30, -80, 100, kTheta, {}};
+              "diffuse power / that in the mirror direction", 1e-4, 30, -45, 100, kTheta, {}};
   chart.curves.push_back(profile_curve("1-D, Beckmann's F (- sin sin)", s, ProfileFactor::beckmann, steel));
   chart.curves.push_back(profile_curve("1-D, F as printed (+ sin sin)", s, ProfileFactor::marx_vorburger_1990, steel));
   const Curve flat = power_curve("2-D, Beckmann-Kirchhoff, thesis F", BeckmannKirchhoff<double>{s.sigma_um, s.correlation_um}, steel, kTheta,

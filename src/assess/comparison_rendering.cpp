@@ -124,7 +124,7 @@ Comparison he_1991() {
   };
   for (const double theta : {10., 75.}) {
     Chart chart{fmt::format("he-{:g}.svg", theta), fmt::format("Aluminium, σ0 = 0.28 µm, T = {:g} µm, λ = 0.5 µm, incidence {:g}°", kHeLength, theta),
-                "f / f in the mirror direction", 1e-3, theta < 45 ? 10. : 100., -80, 90, theta, {}};
+                "f / f in the mirror direction", 1e-3, 10, theta < 45 ? -80. : -15., 90, theta, {}};
     for (const Curve& curve : theta < 45 ? at10 : at75) chart.curves.push_back(relative_to(curve, value_at(curve, theta)));
     c.charts.push_back(chart);
   }
