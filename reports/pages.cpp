@@ -10,6 +10,7 @@
 
 #include "assess/interpolation_charts.h"
 #include "assess/kramers_kronig_charts.h"
+#include "assess/merl_tables_page.h"
 #include "assess/published_comparisons_page.h"
 #include "assess/wavelength_charts.h"
 #include "base/error.h"
@@ -105,6 +106,8 @@ const std::vector<PublishedPage>& published_pages() {
        [](const fs::path&, const fs::path& folder) { write_kramers_kronig_charts(folder); }},
       {"published-comparisons", "experiments in print: what each paper says of the models, as numbers that hold or not",
        [](const fs::path&, const fs::path& folder) { write_published_comparisons(folder); }},
+      {"merl-tables", "the published fits of the MERL materials (Ngan, Low, Bagher) evaluated side by side",
+       [](const fs::path&, const fs::path& folder) { write_merl_tables(folder); }},
       {"wavelengths", "how few wavelengths a scene needs, against rules that do not know it; every lamp",
        [](const fs::path& published, const fs::path& folder) { write_wavelength_errors(published, folder); }},
   };

@@ -72,8 +72,8 @@ void add_table(std::size_t table, std::vector<MerlFit>& all) {
 
 }  // namespace
 
-double merl_value(const PublishedFit& fit, double theta_o_deg) {
-  const auto w = directions_from_deg(kMerlThetaI, std::abs(theta_o_deg), theta_o_deg < 0 ? 0.0 : 180.0);
+double merl_value(const PublishedFit& fit, double theta_o_deg, double theta_i_deg) {
+  const auto w = directions_from_deg(theta_i_deg, std::abs(theta_o_deg), theta_o_deg < 0 ? 0.0 : 180.0);
   return evaluate(make_brdf<double>(fit.spec, fit.values), w, fit.surface, kUm);
 }
 

@@ -26,9 +26,9 @@ struct MerlFit {
   bool no_lobe;  ///< the printed index is 1: F and the lobe are 0
 };
 
-/// f in the plane of incidence, light at 45°, θ_o positive on the mirror side. Tables that ask for a wavelength have it as their
+/// f in the plane of incidence, θ_o positive on the mirror side. Tables that ask for a wavelength have it as their
 /// unit of length (1 µm).
-double merl_value(const PublishedFit& fit, double theta_o_deg);
+double merl_value(const PublishedFit& fit, double theta_o_deg, double theta_i_deg = kMerlThetaI);
 
 /// Every material under every table that has it, by material, then in the tables' order.
 std::vector<MerlFit> merl_fits();

@@ -15,15 +15,14 @@ namespace {
 constexpr std::array kColours{"#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"};
 constexpr std::array kDashes{1, 1, 2, 4, 3};
 
-/// Legend below in two columns, the mirror direction dotted, what lies behind the surface shaded.
+/// Legend below, the mirror direction dotted, what lies behind the surface shaded.
 std::string svg_of(const Chart& chart) {
-  const std::size_t rows = (chart.curves.size() + 1) / 2;
   std::string script = fmt::format(
       "set title '{}'\nset xlabel 'angle from the normal in degrees, positive on the mirror side'\nset ylabel '{}'\n"
       "set xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\nset xtics 15\nset mxtics 3\nset grid lc rgb '#d8d8d8'\n"
-      "set bmargin {:g}\nset rmargin 3\nset key at screen 0.5,0.02 bottom center maxcols 2 Left reverse samplen 3 font ',12'\n",
+      "set bmargin {:g}\nset rmargin 3\nset key at screen 0.5,0.02 bottom center maxcols 1 Left reverse samplen 3 font ',12'\n",
       gnuplot_text(chart.title), gnuplot_text(chart.ordinate), chart.from_deg, chart.to_deg, chart.floor, chart.top,
-      4.0 + 1.1 * static_cast<double>(rows));
+      3.6 + static_cast<double>(chart.curves.size()));
   if (chart.floor > 0) script += "set logscale y\nset format y '10^{%T}'\n";
   script += fmt::format("set arrow from {0:g}, graph 0 to {0:g}, graph 1 nohead lc rgb '#909090' dt 3 lw 1.5\n"
                         "set label 'mirror' at {0:g}, graph 0.04 right offset -0.5,0 tc rgb '#606060' font ',12'\n",
@@ -40,7 +39,7 @@ std::string svg_of(const Chart& chart) {
     plot += fmt::format("{}$d{} with lines lc rgb '{}' dt {} lw 2 title '{}'", n == 0 ? "" : ", ", n, kColours[n], kDashes[n],
                         gnuplot_text(chart.curves[n].name));
   }
-  return gnuplot_svg(script + "plot " + plot + "\n", 760, 480);
+  return gnuplot_svg(script + "plot " + plot + "\n", 760, 540);
 }
 
 std::string limits_of(const Claim& claim) {
