@@ -28,8 +28,8 @@ double power_per_sr(const Lobe<double>& lobe, const Interface<double>& surface, 
   return evaluate(Brdf<double>{lobe, 0.0, 1.0, false}, w, surface, wavelength_um) * w.cos_o;
 }
 
-Curve power_curve(std::string name, const Lobe<double>& lobe, const Interface<double>& surface, double theta_i_deg, double from_deg,
-                  double to_deg, double step_deg, double wavelength_um) {
+Curve power_curve(std::string name, const Lobe<double>& lobe, const Interface<double>& surface, double theta_i_deg,
+                  double from_deg, double to_deg, double step_deg, double wavelength_um) {
   Curve curve{std::move(name), {}};
   const int count = static_cast<int>(std::lround((to_deg - from_deg) / step_deg));
   for (int n = 0; n <= count; ++n) {
@@ -41,7 +41,8 @@ Curve power_curve(std::string name, const Lobe<double>& lobe, const Interface<do
 
 LobeShape shape_of(const Curve& curve) {
   const auto& points = curve.points;
-  const auto top = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto top =
+      std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   const double half = 0.5 * top->second;
   const auto crossing = [&](const auto& above, const auto& below) {
     return below.first + (above.first - below.first) * (half - below.second) / (above.second - below.second);
@@ -61,7 +62,8 @@ LobeShape shape_of(const Curve& curve) {
 }
 
 double value_at(const Curve& curve, double degrees) {
-  const auto above = std::find_if(curve.points.begin(), curve.points.end(), [&](const auto& p) { return p.first >= degrees - 1e-9; });
+  const auto above =
+      std::find_if(curve.points.begin(), curve.points.end(), [&](const auto& p) { return p.first >= degrees - 1e-9; });
   if (above == curve.points.begin() || above->first <= degrees + 1e-9) return above->second;
   const auto below = std::prev(above);
   return below->second + (above->second - below->second) * (degrees - below->first) / (above->first - below->first);
@@ -84,17 +86,19 @@ double share_behind(const Curve& curve) {
   return behind / all;
 }
 
-double two_scale_power_per_sr(double sigma1_um, double correlation1_um, double sigma2_um, double correlation2_um, double theta_i_deg,
-                              double theta_o_deg, double wavelength_um) {
+double two_scale_power_per_sr(double sigma1_um, double correlation1_um, double sigma2_um, double correlation2_um,
+                              double theta_i_deg, double theta_o_deg, double wavelength_um) {
   const double degree = kPi<double> / 180, ci = std::cos(theta_i_deg * degree), co = std::cos(theta_o_deg * degree),
-               wave = 2 * kPi<double> / wavelength_um, v = wave * (std::sin(theta_i_deg * degree) - std::sin(theta_o_deg * degree)),
-               v_z = wave * (ci + co), f_prime = (1 + std::cos((theta_i_deg + theta_o_deg) * degree)) / (ci + co);
+               wave = 2 * kPi<double> / wavelength_um,
+               v = wave * (std::sin(theta_i_deg * degree) - std::sin(theta_o_deg * degree)), v_z = wave * (ci + co),
+               f_prime = (1 + std::cos((theta_i_deg + theta_o_deg) * degree)) / (ci + co);
   const PoissonWindow first(square(v_z * sigma1_um)), second(square(v_z * sigma2_um));
   const double inverse1 = 1 / square(correlation1_um), inverse2 = 1 / square(correlation2_um);
   double sum = 0;
   for (std::size_t j = 0; j < first.weights.size(); ++j)
     for (std::size_t k = 0; k < second.weights.size(); ++k) {
-      const double a = (first.first + static_cast<double>(j)) * inverse1 + (second.first + static_cast<double>(k)) * inverse2;
+      const double a =
+          (first.first + static_cast<double>(j)) * inverse1 + (second.first + static_cast<double>(k)) * inverse2;
       if (a > 0) sum += first.weights[j] * second.weights[k] / a * std::exp(-square(v) / (4 * a));
     }
   return kPi<double> * square(f_prime / wavelength_um) / ci * sum;
@@ -102,7 +106,8 @@ double two_scale_power_per_sr(double sigma1_um, double correlation1_um, double s
 
 double kirchhoff_validity(double sigma_um, double correlation_um, double theta_i_deg, double wavelength_um) {
   const double radius_um = square(correlation_um) / (2 * std::sqrt(3.0) * sigma_um);
-  return std::min(correlation_um / wavelength_um, 4 * kPi<double> * radius_um * std::cos(theta_i_deg * kPi<double> / 180) / wavelength_um);
+  return std::min(correlation_um / wavelength_um,
+                  4 * kPi<double> * radius_um * std::cos(theta_i_deg * kPi<double> / 180) / wavelength_um);
 }
 
 }  // namespace gonio

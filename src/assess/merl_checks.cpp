@@ -1,10 +1,10 @@
 #include "assess/merl_checks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -18,7 +18,8 @@ std::size_t table_of(std::string_view name) {
 }
 
 /// |log10 ratio| of two tables over the materials of both.
-std::vector<double> apart(const std::vector<MerlFit>& fits, std::string_view one, std::string_view other, std::size_t half) {
+std::vector<double> apart(const std::vector<MerlFit>& fits, std::string_view one, std::string_view other,
+                          std::size_t half) {
   std::map<std::string, double> first;
   for (const MerlFit& fit : fits)
     if (fit.table == table_of(one) && !fit.no_lobe) first[fit.material] = fit.f[half];
@@ -38,7 +39,8 @@ double worst_scale(const std::vector<MerlDeviation>& deviations, std::size_t hal
 }
 
 double count_above(const std::vector<MerlFit>& fits, std::size_t angle, double limit) {
-  return static_cast<double>(std::count_if(fits.begin(), fits.end(), [&](const MerlFit& fit) { return fit.energy[angle] > limit; }));
+  return static_cast<double>(
+      std::count_if(fits.begin(), fits.end(), [&](const MerlFit& fit) { return fit.energy[angle] > limit; }));
 }
 
 double median_energy(const std::vector<MerlFit>& fits, std::string_view material) {
@@ -57,14 +59,17 @@ bool gaussian_tail(std::size_t table) {
 std::string why_apart(const MerlFit& lowest, const MerlFit& highest, std::size_t half) {
   const std::string low(published_tables()[lowest.table].name), high(published_tables()[highest.table].name);
   if (kMerlHalfDeg[half] >= 10 && lowest.kd < 1e-3)
-    return fmt::format("{}: kd = {:g}{}", low, lowest.kd, gaussian_tail(lowest.table) ? " and a Gaussian tail: nothing is left there" : ", and its lobe ends before");
+    return fmt::format(
+        "{}: kd = {:g}{}", low, lowest.kd,
+        gaussian_tail(lowest.table) ? " and a Gaussian tail: nothing is left there" : ", and its lobe ends before");
   if (half > 0) return "one lobe for core and flank: each table keeps another of the two";
-  return fmt::format("{}: {:.0f} times less already at 1°, a core that the measurement hardly resolves{}", high, highest.f[0] / highest.f[1],
+  return fmt::format("{}: {:.0f} times less already at 1°, a core that the measurement hardly resolves{}", high,
+                     highest.f[0] / highest.f[1],
                      low == "ngan-lafortune" ? "; Lafortune's lobe sinks away from grazing" : "");
 }
 
-/// Lafortune's lobe against Cook-Torrance's (both Ngan's, green) in the mirror direction of an incidence: nine tenths of |log10 ratio| over
-/// the materials whose c_xy > c_z.
+/// Lafortune's lobe against Cook-Torrance's (both Ngan's, green) in the mirror direction of an incidence: nine tenths
+/// of |log10 ratio| over the materials whose c_xy > c_z.
 double lafortune_apart(double theta_i) {
   std::map<std::string, double> faceted;
   for (const PublishedFit& fit : read_published(published_table("ngan-cook-torrance")))
@@ -113,32 +118,41 @@ double quantile(std::vector<double> values, double share) {
 }
 
 std::vector<Claim> merl_claims(const std::vector<MerlFit>& fits, const std::vector<MerlDeviation>& deviations) {
-  const auto median_apart = [&](const char* a, const char* b, std::size_t half) { return quantile(apart(fits, a, b, half), 0.5); };
+  const auto median_apart = [&](const char* a, const char* b, std::size_t half) {
+    return quantile(apart(fits, a, b, half), 0.5);
+  };
   constexpr std::size_t kPeak = 0, kCore = 2, kFlank = 3, kTail = 4;
   return {
-      {"every table's scale is read aright (a lost π is 0.50)", "largest median deviation of a table, decades, 2°", worst_scale(deviations, kCore), 0, 0.15},
+      {"every table's scale is read aright (a lost π is 0.50)", "largest median deviation of a table, decades, 2°",
+       worst_scale(deviations, kCore), 0, 0.15},
       {"… and 5°", "the same", worst_scale(deviations, kFlank), 0, 0.15},
       {"… and 10°", "the same", worst_scale(deviations, kTail), 0, 0.15},
       {"at the mirror direction too", "the same at 0°", worst_scale(deviations, kPeak), 0, 0.15},
       {"Low's two lobes fitted by one metric agree (E1)", "Cook-Torrance and Ashikhmin-Shirley, median decades at 2°",
        median_apart("low-cook-torrance-e1", "low-ashikhmin-shirley-e1", kCore), 0, 0.05},
       {"… (E2)", "the same", median_apart("low-cook-torrance-e2", "low-ashikhmin-shirley-e2", kCore), 0, 0.05},
-      {"Low's smooth and microfacet fits agree", "median decades at 10°", median_apart("low-smooth", "low-microfacet", kTail), 0, 0.1},
-      {"two papers' Cook-Torrance agree", "Ngan and Low (E2), median decades at 2°", median_apart("ngan-cook-torrance", "low-cook-torrance-e2", kCore),
-       0, 0.15},
-      {"He's lobe is Cook-Torrance's here", "Ngan's two, median decades at 2°", median_apart("ngan-he", "ngan-cook-torrance", kCore), 0, 0.1},
-      {"Lafortune's c_xy > c_z makes up for Fresnel: it agrees towards grazing", "with Cook-Torrance (Ngan), nine tenths of decades, mirror direction of 70°",
-       lafortune_apart(70), 0, 0.5},
-      {"… and at 45°", "the same at 45°", lafortune_apart(45), 0, 0.5},
-      {"Low's ABC lobes follow measured aluminium over five decades", "largest decades off, smooth", off_aluminium("low-smooth"), 0, 0.3},
+      {"Low's smooth and microfacet fits agree", "median decades at 10°",
+       median_apart("low-smooth", "low-microfacet", kTail), 0, 0.1},
+      {"two papers' Cook-Torrance agree", "Ngan and Low (E2), median decades at 2°",
+       median_apart("ngan-cook-torrance", "low-cook-torrance-e2", kCore), 0, 0.15},
+      {"He's lobe is Cook-Torrance's here", "Ngan's two, median decades at 2°",
+       median_apart("ngan-he", "ngan-cook-torrance", kCore), 0, 0.1},
+      {"Lafortune's lobe follows Cook-Torrance's (Ngan's two)",
+       "nine tenths of decades where c_xy > c_z, mirror direction of 45°", lafortune_apart(45), 0, 0.3},
+      {"… nearer towards grazing: c_xy > c_z stands for Fresnel's rise", "the same at 70° over that at 45°",
+       lafortune_apart(70) / lafortune_apart(45), 0, 1},
+      {"Low's ABC lobes follow measured aluminium over five decades", "largest decades off, smooth",
+       off_aluminium("low-smooth"), 0, 0.3},
       {"… microfacet", "the same", off_aluminium("low-microfacet"), 0, 0.3},
       {"… another lobe does too", "the same, the nearest of the other tables", nearest_other_to_aluminium(), 0, 0.3},
-      {"the metric decides the fit more than the model: E1 against E2", "Low's Cook-Torrance, nine tenths of decades at 2°",
+      {"the metric decides the fit more than the model: E1 against E2",
+       "Low's Cook-Torrance, nine tenths of decades at 2°",
        quantile(apart(fits, "low-cook-torrance-e1", "low-cook-torrance-e2", kCore), 0.9), 0.3, 9},
       {"every fit keeps energy at 10°", "fits with E > 1", count_above(fits, 0, 1), 0, 0},
       {"… and at 75°", "fits with E > 1", count_above(fits, 1, 1), 0, 0},
       {"… if MERL's scale is π too small, at 10°", "fits with E > 1/π", count_above(fits, 0, 1 / kPi<double>), 0, 0},
-      {"MERL's scale is absolute: teflon reflects as PTFE does (0.99)", "median E of teflon at 10°", median_energy(fits, "teflon"), 0.9, 1.05},
+      {"MERL's scale is absolute: teflon reflects as PTFE does (0.99)", "median E of teflon at 10°",
+       median_energy(fits, "teflon"), 0.9, 1.05},
   };
 }
 
@@ -150,11 +164,13 @@ std::vector<MerlSpread> merl_spreads(const std::vector<MerlFit>& fits, const std
   for (const std::size_t half : {std::size_t(0), std::size_t(3), std::size_t(5)}) {
     std::vector<MerlSpread> all;
     for (const auto& [material, tables] : by_material) {
-      const auto [low, high] =
-          std::minmax_element(tables.begin(), tables.end(), [&](const MerlFit* a, const MerlFit* b) { return a->f[half] < b->f[half]; });
-      all.push_back({material, half, std::log10((*high)->f[half] / (*low)->f[half]), (*low)->table, (*high)->table, why_apart(**low, **high, half)});
+      const auto [low, high] = std::minmax_element(
+          tables.begin(), tables.end(), [&](const MerlFit* a, const MerlFit* b) { return a->f[half] < b->f[half]; });
+      all.push_back({material, half, std::log10((*high)->f[half] / (*low)->f[half]), (*low)->table, (*high)->table,
+                     why_apart(**low, **high, half)});
     }
-    std::stable_sort(all.begin(), all.end(), [](const MerlSpread& a, const MerlSpread& b) { return a.decades > b.decades; });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const MerlSpread& a, const MerlSpread& b) { return a.decades > b.decades; });
     worst.insert(worst.end(), all.begin(), all.begin() + 5);
   }
   return worst;
@@ -163,12 +179,14 @@ std::vector<MerlSpread> merl_spreads(const std::vector<MerlFit>& fits, const std
 std::vector<double> measured_aluminium() {
   std::map<double, double> scan;  // θ_o on the mirror side, log10 f
   for (const ScanPoint& p : read_measurement(data_folder("measurements") / "aluminium-merl").points)
-    if (p.theta_i_deg == kMerlThetaI && std::abs(std::abs(p.phi_deg()) - 180) < 1e-9) scan[p.theta_o_deg] = std::log10(p.f_per_sr);
+    if (p.theta_i_deg == kMerlThetaI && std::abs(std::abs(p.phi_deg()) - 180) < 1e-9)
+      scan[p.theta_o_deg] = std::log10(p.f_per_sr);
   std::vector<double> values;
   for (const double half : kMerlHalfDeg) {
     const double theta = kMerlThetaI - 2 * half;
     const auto above = scan.lower_bound(theta);
-    if (above == scan.begin() || above == scan.end()) throw input_error("aluminium-merl: no point next to {}°; expected a scan about 45°", theta);
+    if (above == scan.begin() || above == scan.end())
+      throw input_error("aluminium-merl: no point next to {}°; expected a scan about 45°", theta);
     const auto below = std::prev(above);
     const double share = (theta - below->first) / (above->first - below->first);
     values.push_back(std::pow(10.0, below->second + share * (above->second - below->second)));

@@ -40,7 +40,8 @@ bool same_lobe(const PublishedFit& a, const PublishedFit& b) {
 
 MerlFit summary_of(const PublishedFit& fit, std::size_t table) {
   MerlFit summary{fit.material, table, make_brdf<double>(fit.spec, fit.values).kd, {}, {}, has_no_lobe(fit)};
-  for (std::size_t h = 0; h < kMerlHalfDeg.size(); ++h) summary.f[h] = merl_value(fit, kMerlThetaI - 2 * kMerlHalfDeg[h]);
+  for (std::size_t h = 0; h < kMerlHalfDeg.size(); ++h)
+    summary.f[h] = merl_value(fit, kMerlThetaI - 2 * kMerlHalfDeg[h]);
   return summary;
 }
 
@@ -65,7 +66,8 @@ void add_table(std::size_t table, std::vector<MerlFit>& all) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Brdf<double> brdf = make_brdf<double>(rows[r].spec, rows[r].values);
     Energies& energy = materials.at(rows[r].material).energy;
-    for (std::size_t e = 0; e < energy.size(); ++e) energy[e] = std::max(energy[e], brdf.kd + brdf.ks * lobes[first[r]][e]);
+    for (std::size_t e = 0; e < energy.size(); ++e)
+      energy[e] = std::max(energy[e], brdf.kd + brdf.ks * lobes[first[r]][e]);
   }
   for (const auto& [name, fit] : materials) all.push_back(fit);
 }

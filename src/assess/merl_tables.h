@@ -1,5 +1,6 @@
 #pragma once
-// The published fits of the MERL materials (fit/published_parameters.h), evaluated with our models and set side by side.
+// The published fits of the MERL materials (fit/published_parameters.h), evaluated with our models and set side by
+// side.
 #include <array>
 #include <string>
 #include <vector>
@@ -8,15 +9,15 @@
 
 namespace gonio {
 
-/// Where the tables are compared: light at 45°, eye in the plane of incidence, the half vector 0 to 20° from the normal on the
-/// near side (0 is the mirror direction).
+/// Where the tables are compared: light at 45°, eye in the plane of incidence, the half vector 0 to 20° from the normal
+/// on the near side (0 is the mirror direction).
 inline constexpr double kMerlThetaI = 45;
 inline constexpr std::array kMerlHalfDeg{0., 1., 2., 5., 10., 20.};
 /// Where energies are.
 inline constexpr std::array kMerlEnergyDeg{10., 75.};
 
-/// One material under one table. f in 1/sr of the green channel; energies (directional reflectance with the diffuse part and the
-/// coherent one) are the largest of the three channels.
+/// One material under one table. f in 1/sr of the green channel; energies (directional reflectance with the diffuse
+/// part and the coherent one) are the largest of the three channels.
 struct MerlFit {
   std::string material;
   std::size_t table;  ///< in published_tables()
@@ -33,7 +34,8 @@ double merl_value(const PublishedFit& fit, double theta_o_deg, double theta_i_de
 /// Every material under every table that has it, by material, then in the tables' order.
 std::vector<MerlFit> merl_fits();
 
-/// log10 f of a fit less the median of all tables with a lobe for the same material, at position `half` of kMerlHalfDeg.
+/// log10 f of a fit less the median of all tables with a lobe for the same material, at position `half` of
+/// kMerlHalfDeg.
 struct MerlDeviation {
   std::string material;
   std::size_t table;

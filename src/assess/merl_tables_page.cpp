@@ -53,8 +53,8 @@ std::string agreement_table(const std::vector<MerlDeviation>& deviations) {
 std::string spread_table(const std::vector<MerlSpread>& spreads) {
   std::string text = "| half vector | material | decades | lowest | highest | why |\n|---|---|---|---|---|---|\n";
   for (const MerlSpread& s : spreads)
-    text += fmt::format("| {:g}° | {} | {:.2f} | {} | {} | {} |\n", kMerlHalfDeg[s.half], s.material, s.decades, table_name(s.lowest),
-                        table_name(s.highest), s.why);
+    text += fmt::format("| {:g}° | {} | {:.2f} | {} | {} | {} |\n", kMerlHalfDeg[s.half], s.material, s.decades,
+                        table_name(s.lowest), table_name(s.highest), s.why);
   return text;
 }
 
@@ -62,15 +62,16 @@ std::string energy_table(const std::vector<MerlFit>& fits) {
   std::string text = "| material | table | E at 10° | E at 75° |\n|---|---|---|---|\n";
   for (const MerlFit& fit : fits)
     if (fit.energy[0] > 1 || fit.energy[1] > 1)
-      text += fmt::format("| {} | {} | {:.3g} | {:.3g} |\n", fit.material, table_name(fit.table), fit.energy[0], fit.energy[1]);
+      text += fmt::format("| {} | {} | {:.3g} | {:.3g} |\n", fit.material, table_name(fit.table), fit.energy[0],
+                          fit.energy[1]);
   return text;
 }
 
 std::string claims_table(const std::vector<Claim>& claims) {
   std::string text = "| statement | quantity | value | holds for | verdict |\n|---|---|---|---|---|\n";
   for (const Claim& claim : claims)
-    text += fmt::format("| {} | {} | {:.3g} | {:.3g} to {:.3g} | {} |\n", claim.statement, claim.quantity, claim.value, claim.lo, claim.hi,
-                        claim.holds() ? "holds" : "**does not hold**");
+    text += fmt::format("| {} | {} | {:.3g} | {:.3g} to {:.3g} | {} |\n", claim.statement, claim.quantity, claim.value,
+                        claim.lo, claim.hi, claim.holds() ? "holds" : "**does not hold**");
   return text;
 }
 
@@ -93,31 +94,45 @@ std::string aluminium_table() {
   return text;
 }
 
-std::string text_of(const std::vector<MerlFit>& fits, const std::vector<MerlDeviation>& deviations, std::size_t sheets) {
+std::string text_of(const std::vector<MerlFit>& fits, const std::vector<MerlDeviation>& deviations,
+                    std::size_t sheets) {
   std::string text = fmt::format(
       "# The published MERL tables\n\n"
-      "Ngan et al. 2005 (seven models, 86 materials), Low et al. 2012 (six, 100) and Bagher et al. 2012 (one, 100) fitted reflection models to the\n"
-      "same measured materials. Their parameters (measurements/published_parameters, conventions in the README there) are evaluated here with our\n"
-      "models: light at 45°, eye in the plane of incidence, green channel. {} fits. Where they agree, a reading of a paper's conventions is\n"
+      "Ngan et al. 2005 (seven models, 86 materials), Low et al. 2012 (six, 100) and Bagher et al. 2012 (one, 100) "
+      "fitted reflection models to the\n"
+      "same measured materials. Their parameters (measurements/published_parameters, conventions in the README there) "
+      "are evaluated here with our\n"
+      "models: light at 45°, eye in the plane of incidence, green channel. {} fits. Where they agree, a reading of a "
+      "paper's conventions is\n"
       "confirmed; where they do not, either the model cannot follow the material or the fit did not ask it to.\n\n"
       "## What is checked\n\n",
       fits.size());
   text += claims_table(merl_claims(fits, deviations));
   text +=
-      "\nThe absolute scale of all tables is that of the MERL files, and looks π times too small: teflon and white paint reflect a third in every\n"
-      "table where sintered PTFE reflects 0.99 (NIST), and no diffuse factor passes 1/π by much. An energy above 1/π here is one above 1\n"
+      "\nThe absolute scale of all tables is that of the MERL files, and looks π times too small: teflon and white "
+      "paint reflect a third in every\n"
+      "table where sintered PTFE reflects 0.99 (NIST), and no diffuse factor passes 1/π by much. An energy above 1/π "
+      "here is one above 1\n"
       "were that so.\n\n"
       "## Agreement\n\n"
-      "|log10 f - median of all tables for the same material|: its median / nine tenths over the materials, by the angle of the half vector from the\n"
-      "normal (0° is the mirror direction). 0.3 is a factor of 2. Rows of He's table whose printed index is 1.0 have no lobe and are left out.\n\n";
+      "|log10 f - median of all tables for the same material|: its median / nine tenths over the materials, by the "
+      "angle of the half vector from the\n"
+      "normal (0° is the mirror direction). 0.3 is a factor of 2. Rows of He's table whose printed index is 1.0 have "
+      "no lobe and are left out.\n\n";
   text += agreement_table(deviations);
-  text += "\nWhere tables of one material lie furthest apart, the five worst at the mirror direction, in the flank and in the tail:\n\n";
+  text +=
+      "\nWhere tables of one material lie furthest apart, the five worst at the mirror direction, in the flank and in "
+      "the tail:\n\n";
   text += spread_table(merl_spreads(fits, deviations));
-  text += "\n## Energy\n\nDirectional reflectance, diffuse part, lobe and coherent part, of the brightest channel. Above 1:\n\n" + energy_table(fits);
+  text +=
+      "\n## Energy\n\nDirectional reflectance, diffuse part, lobe and coherent part, of the brightest channel. Above "
+      "1:\n\n" +
+      energy_table(fits);
   text +=
       "\nHe's shadowing bounds f but not E, and its published ρ_s are free factors. All energies are in values.csv.\n\n"
       "## Aluminium against its measurement\n\n"
-      "log10 of each table's f (green) over the bundled in-plane measurement of the same MERL material (luminance-like).\n"
+      "log10 of each table's f (green) over the bundled in-plane measurement of the same MERL material "
+      "(luminance-like).\n"
       "Gaussian and cosine-power lobes leave the tail to kd, and are ten times off between core and tail.\n\n" +
       aluminium_table() + "\n## All materials\n";
   for (std::size_t s = 1; s <= sheets; ++s) text += fmt::format("\n![materials {0}](sheet-{0}.png)\n", s);

@@ -121,6 +121,7 @@ Lobe<T> make_lobe(const ModelSpec& spec, std::span<const T> values) {
     case ModelId::torrance_sparrow_1967: return Blinn<T>{values[0], BlinnDensity::gaussian_angle, BlinnScale::facet_area};
     case ModelId::blinn_1977_spheroid: return Blinn<T>{values[0], BlinnDensity::spheroid, BlinnScale(spec.form)};
     case ModelId::cook_torrance_1981: return CookTorrance<T>{values[0], CookDensity(spec.form)};
+    case ModelId::cook_torrance_1981_two_widths: return CookTorrance<T>{values[0], CookDensity::beckmann, values[1], values[2]};
     case ModelId::phong_1975: return PhongHighlight<T>{values[0], Highlight::mirror_direction};
     case ModelId::whitted_1980: return PhongHighlight<T>{values[0], Highlight::half_vector};
     case ModelId::he_1991: return HeTorrance<T>{values[0], values[1], HeReading(spec.form)};

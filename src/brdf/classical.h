@@ -76,8 +76,8 @@ struct Blinn {
   }
 };
 
-/// Cook's laws of facets: his D2, Beckmann's as printed, exp(-tan²ζ/α²)/(α²·cos⁴ζ) (no 1/π); his D1, exp(-(ζ/α)²) with c = 1. His D3 is
-/// a weighted sum of these at several α.
+/// Cook's laws of facets: his D2, Beckmann's as printed, exp(-tan²ζ/α²)/(α²·cos⁴ζ) (no 1/π); his D1, exp(-(ζ/α)²) with c = 1. His
+/// D3 = Σ w_j·D(α_j), Σ w_j = 1, sums these at several α: here two of D2, (1 - weight_2)·D(alpha) + weight_2·D(alpha_2).
 enum class CookDensity { beckmann, gaussian_angle };
 
 /// Cook & Torrance 1981 (SIGGRAPH; ACM TOG 1(1), doi:10.1145/357290.357293) as published: f = F·D·G/(π·cos_i·cos_o), V-cavity G.
@@ -88,6 +88,7 @@ struct CookTorrance {
   static constexpr bool kFacets = true, kDiffracts = false;
   T alpha;
   CookDensity density = CookDensity::beckmann;
+  T alpha_2 = T(1), weight_2 = T(0);
 
   template <class G>
   T shape(const Directions<G>& w) const {
@@ -97,7 +98,8 @@ struct CookTorrance {
 
  private:
   T law(const T& tan2) const {
-    if (density == CookDensity::beckmann) return kPi<T> * beckmann_d(tan2, alpha);
+    if (density == CookDensity::beckmann)
+      return kPi<T> * ((T(1) - weight_2) * beckmann_d(tan2, alpha) + weight_2 * beckmann_d(tan2, alpha_2));
     return blinn_density(BlinnDensity::gaussian_angle, tan2, T(T(1) / alpha));
   }
 };
