@@ -10,7 +10,7 @@
 namespace gonio {
 namespace {
 
-constexpr double kUm = 0.6328, kTheta = 54, kMost = 1e9;
+constexpr double kUm = 0.6328, kTheta = 54;
 
 struct Specimen {
   double sigma_um, correlation_um;

@@ -24,7 +24,7 @@ std::vector<ModelInfo> classical_models() {
       {ModelId::blinn_1977_cosine, "blinn-1977-cosine", "Blinn's facets, cosine power", blinn_formula, blinn, {power, kKd, kKs}, {}, scales,
        true, false, true, false},
       {ModelId::blinn_1977_gaussian, "blinn-1977-gaussian", "Blinn's facets, Gaussian of the angle", blinn_formula, blinn,
-       {decay, kKd, kKs}, {}, published, true, false, true, false},
+       {decay, kKd, kKs}, {}, scales, true, false, true, false},
       {ModelId::blinn_1977_spheroid, "blinn-1977-spheroid", "Blinn's facets, Trowbridge-Reitz spheroids", blinn_formula, blinn,
        {spheroid, kKd, kKs}, {}, scales, true, false, true, false},
       {ModelId::cook_torrance_1981, "cook-torrance-1981", "Cook & Torrance as published (corrected: torrance-sparrow)",
