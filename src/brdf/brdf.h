@@ -117,7 +117,7 @@ Lobe<T> make_lobe(const ModelSpec& spec, std::span<const T> values) {
     case ModelId::mirror: return Mirror{};
     case ModelId::trowbridge_reitz: return TrowbridgeReitz<T>{values[0]};
     case ModelId::blinn_1977_cosine: return Blinn<T>{values[0], BlinnDensity::cosine_power, BlinnScale(spec.form)};
-    case ModelId::blinn_1977_gaussian: 
+    case ModelId::blinn_1977_gaussian:
       return Blinn<T>{values[0], BlinnDensity::gaussian_angle, BlinnScale(spec.form),
                       BlinnScale(spec.form) == BlinnScale::normalised ? gaussian_angle_integral(values[0]) : T(1)};
     case ModelId::torrance_sparrow_1967: return Blinn<T>{values[0], BlinnDensity::gaussian_angle, BlinnScale::facet_area};
