@@ -131,8 +131,8 @@ std::string text_of(const std::vector<MerlFit>& fits, const std::vector<MerlDevi
   text +=
       "\nHe's shadowing bounds f but not E, and its published ρ_s are free factors. All energies are in values.csv.\n\n"
       "## Aluminium against its measurement\n\n"
-      "log10 of each table's f (green) over the bundled in-plane measurement of the same MERL material "
-      "(luminance-like).\n"
+      "log10 of each table's f (green) over the bundled in-plane measurement of the same material (MERL BRDF "
+      "database,\nMatusik et al. 2003, CC BY-SA 4.0; luminance-like).\n"
       "Gaussian and cosine-power lobes leave the tail to kd, and are ten times off between core and tail.\n\n" +
       aluminium_table() + "\n## All materials\n";
   for (std::size_t s = 1; s <= sheets; ++s) text += fmt::format("\n![materials {0}](sheet-{0}.png)\n", s);
