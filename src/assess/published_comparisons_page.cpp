@@ -13,7 +13,7 @@ namespace gonio {
 namespace {
 
 constexpr std::array kColours{"#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"};
-constexpr std::array kDashes{1, 1, 2, 4, 3};
+constexpr std::array kDashes{1, 2, 4, 5, 3};
 
 /// Legend below, the mirror direction dotted, what lies behind the surface shaded.
 std::string svg_of(const Chart& chart) {
@@ -32,7 +32,7 @@ std::string svg_of(const Chart& chart) {
   if (chart.to_deg > 90)
     script +=
         "set object rectangle from 90, graph 0 to graph 1, graph 1 fc rgb '#f3e4e4' fs solid noborder behind\n"
-        "set label 'behind the surface' at 92.5, graph 0.97 rotate by -90 tc rgb '#905050' font ',11'\n";
+        "set label 'behind the surface' at 93.2, graph 0.04 rotate by 90 left tc rgb '#905050' font ',11'\n";
   std::string plot;
   for (std::size_t n = 0; n < chart.curves.size(); ++n) {
     script += fmt::format("$d{} << EOD\n", n);
