@@ -150,7 +150,7 @@ std::vector<Claim> merl_claims(const std::vector<MerlFit>& fits, const std::vect
        quantile(apart(fits, "low-cook-torrance-e1", "low-cook-torrance-e2", kCore), 0.9), 0.3, 9},
       {"every fit keeps energy at 10°", "fits with E > 1", count_above(fits, 0, 1), 0, 0},
       {"… and at 75°", "fits with E > 1", count_above(fits, 1, 1), 0, 0},
-      {"… if MERL's scale is π too small, at 10°", "fits with E > 1/π", count_above(fits, 0, 1 / kPi<double>), 0, 0},
+      {"… at 10° if MERL's scale is π too small", "fits with E > 1/π", count_above(fits, 0, 1 / kPi<double>), 0, 0},
       {"MERL's scale is absolute: teflon reflects as PTFE does (0.99)", "median E of teflon at 10°",
        median_energy(fits, "teflon"), 0.9, 1.05},
   };

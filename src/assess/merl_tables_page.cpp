@@ -109,11 +109,10 @@ std::string text_of(const std::vector<MerlFit>& fits, const std::vector<MerlDevi
       fits.size());
   text += claims_table(merl_claims(fits, deviations));
   text +=
-      "\nThe absolute scale of all tables is that of the MERL files, and looks π times too small: teflon and white "
-      "paint reflect a third in every\n"
-      "table where sintered PTFE reflects 0.99 (NIST), and no diffuse factor passes 1/π by much. An energy above 1/π "
-      "here is one above 1\n"
-      "were that so.\n\n"
+      "\nThe absolute scale of all tables is that of the MERL files, and in doubt: teflon reflects a third in every "
+      "table "
+      "where sintered PTFE reflects\n0.99 (NIST). Times π the white materials would come to about 1, but the red of "
+      "orange and light red paint to 1.4. An energy\nbelow 1 here proves little.\n\n"
       "## Agreement\n\n"
       "|log10 f - median of all tables for the same material|: its median / nine tenths over the materials, by the "
       "angle of the half vector from the\n"
@@ -129,7 +128,9 @@ std::string text_of(const std::vector<MerlFit>& fits, const std::vector<MerlDevi
       "1:\n\n" +
       energy_table(fits);
   text +=
-      "\nHe's shadowing bounds f but not E, and its published ρ_s are free factors. All energies are in values.csv.\n\n"
+      "\nNgan's He fits have indices down to 1.01: F vanishes at the normal, ρ_s (6770 for red-phenolic) makes up for "
+      "it, "
+      "and F rises a hundredfold\ntowards grazing. All energies are in values.csv.\n\n"
       "## Aluminium against its measurement\n\n"
       "log10 of each table's f (green) over the bundled in-plane measurement of the same material (MERL BRDF "
       "database,\nMatusik et al. 2003, CC BY-SA 4.0; luminance-like).\n"
