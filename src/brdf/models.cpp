@@ -25,7 +25,8 @@ std::vector<ModelInfo> thesis_models() {
        {kSlope, kKd, kKs}, {"v-cavity", "smith-separable", "smith-correlated", "smith-1967", "none"},
        {"exact", "schlick-f", "schlick-d", "schlick-g", "schlick", "walter-g"}, true, true, true, false},
       {ModelId::beckmann_kirchhoff, "beckmann-kirchhoff", "Beckmann-Kirchhoff diffraction (18a), incoherent part + coherent energy",
-       "f = kd/pi + ks R(cos_d) pi T^2 F'^2/(lambda^2 cos_i cos_o) sum_j Pois(j;g)/j exp(-v_xy^2 T^2/(4j))",
+       "f = kd/pi + ks R(cos_d) pi T^2 F'^2/(lambda^2 cos_i cos_o) sum_j Pois(j;g)/j exp(-v_xy^2 T^2/(4j)); "
+       "nieto-vesperinas-1982: times (cos_i/cos_o)^2",
        "Beckmann & Spizzichino 1963; Maillot 1996, eq. (18a)",
        {{"sigma_um", "um", "height rms", 1e-4, 1e3, 0.02, 5, std::nullopt},
         {"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100, std::nullopt},

@@ -1,10 +1,12 @@
 // Beckmann-Kirchhoff with other factors F: Nieto-Vesperinas's in a BRDF, Marx & Vorburger's of a profile.
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include "base/error.h"
 #include "brdf/brdf.h"
 #include "brdf/kirchhoff_profile.h"
 #include "brdf/lanes.h"
 #include "catch.h"
+#include "energy/directional_reflectance.h"
 #include "oracles/fifty_digits.h"
 #include "reference/reference.h"
 
@@ -73,6 +75,8 @@ TEST_CASE("… is the thesis's in the mirror direction, with its coherent part, 
   CHECK(coherent_energy(make_brdf<double>(other, values), 0.8, kGold, kUm) ==
         coherent_energy(make_brdf<double>(exact, values), 0.8, kGold, kUm));
   CHECK(coherent_energy(make_brdf<double>(kirchhoff("rough-limit"), values), 0.8, kGold, kUm) == 0);
+  const SpectralSurface surface{{kGold}, {kUm}};  // E = ∫ f cos_o dω_o is infinite: refused, not looked for
+  CHECK_THROWS_AS(directional_reflectance(make_brdf<double>(other, values).lobe, 20, surface), InputError);
   CHECK(value(other, values, w) / value(other, values, swapped(w)) ==
         Approx(std::pow(w.cos_i / w.cos_o, 4)).epsilon(1e-12));
 }
