@@ -11,6 +11,8 @@
 #include "assess/brdf_stability.h"
 #include "assess/interpolation_charts.h"
 #include "assess/kramers_kronig_charts.h"
+#include "assess/merl_tables_page.h"
+#include "assess/published_comparisons_page.h"
 #include "assess/wavelength_charts.h"
 #include "base/error.h"
 #include "base/files.h"
@@ -105,6 +107,10 @@ const std::vector<PublishedPage>& published_pages() {
        [](const fs::path&, const fs::path& folder) { write_interpolation_errors(folder); }},
       {"kramers-kronig", "n and k from reflectance on cut bands, against metals whose n and k are known",
        [](const fs::path&, const fs::path& folder) { write_kramers_kronig_charts(folder); }},
+      {"published-comparisons", "experiments in print: what each paper says of the models, as numbers that hold or not",
+       [](const fs::path&, const fs::path& folder) { write_published_comparisons(folder); }},
+      {"merl-tables", "the published fits of the MERL materials (Ngan, Low, Bagher) evaluated side by side",
+       [](const fs::path&, const fs::path& folder) { write_merl_tables(folder); }},
       {"wavelengths", "how few wavelengths a scene needs, against rules that do not know it; every lamp",
        [](const fs::path& published, const fs::path& folder) { write_wavelength_errors(published, folder); }},
   };

@@ -5,8 +5,8 @@
 
 namespace gonio {
 
-/// Which form of the series: the whole of it, or one of its limits.
-enum class KirchhoffForm { series, rough_limit, smooth_limit };
+/// Which form of the series: the whole of it, one of its limits, or the whole with another factor F (below).
+enum class KirchhoffForm { series, rough_limit, smooth_limit, nieto_vesperinas_1982 };
 
 /// Beckmann-Kirchhoff diffraction by a Gaussian rough surface with autocorrelation exp(-τ²/T²).
 /// Beckmann & Spizzichino 1963, ch. 5; Maillot 1996 eq. (18a), §I.2.3.2. With u, w the components of i + o in and across the
@@ -17,6 +17,13 @@ enum class KirchhoffForm { series, rough_limit, smooth_limit };
 /// Limits: g → ∞: D/(4·cos_i·cos_o) with alpha = 2σ/T (rough_limit); g → 0: the first term of the series (smooth_limit).
 /// Validity: T ≫ λ, 4π·r_c·cos θ ≫ λ, patch ≫ λ² and T², no shadowing. Reciprocal; not conserving away from the normal and
 /// unbounded at grazing (no shadowing).
+///
+/// nieto_vesperinas_1982: the F with which Mendez & O'Donnell 1987 compare (Maillot 1996 §I.2.5.2), cos_o for cos_i in its
+/// denominator, F = (1 + cos_i·cos_o - sin_i·sin_o·cos δ)/(cos_o·(cos_i + cos_o)). (20a) has cos²_i·F² and f = (power per
+/// steradian and area)/(E·cos_o), so with the rest kept f is (cos_i/cos_o)² times the thesis's: equal in the mirror direction
+/// (and so is the coherent part), not reciprocal (f(i→o)/f(o→i) = (cos_i/cos_o)⁴), cos_o^-3 next to the horizon.
+/// Where F divides the amplitude of a plane wave (Nieto-Vesperinas, Opt. Acta 29, 961), whose radiant intensity has cos²_o in
+/// place of (20a)'s cos²_i, the two cancel and f is `series` to the letter.
 template <class T>
 struct BeckmannKirchhoff {
   static constexpr bool kFacets = true, kDiffracts = true;
@@ -37,9 +44,13 @@ struct BeckmannKirchhoff {
     const T f_prime = T(0.5) * cos_sum * (T(1) + tan2_h);
     const T b = square(kPi<T> * correlation_um * cos_sum / wavelength_um) * tan2_h;  // v_xy²T²/4
     const T g = phase_variance(w, wavelength_um);
-    const T scale = kPi<T> * square(correlation_um / wavelength_um) * square(f_prime) / cosines;
-    return form == KirchhoffForm::series ? diffraction_series(g, b, scale) : scaled_exp(T(scale * g), T(g + b));
+    T scale = kPi<T> * square(correlation_um / wavelength_um) * square(f_prime) / cosines;
+    if (form == KirchhoffForm::nieto_vesperinas_1982) scale = scale * square(T(T(w.cos_i) / T(w.cos_o)));
+    return form == KirchhoffForm::smooth_limit ? scaled_exp(T(scale * g), T(g + b)) : diffraction_series(g, b, scale);
   }
+
+  /// Whether the coherent part belongs to the form: the limits are of the incoherent lobe alone.
+  bool has_coherent_part() const { return form == KirchhoffForm::series || form == KirchhoffForm::nieto_vesperinas_1982; }
 
   /// Share of the mirror's energy that stays coherent, exp(-g) at o = mirror of i (multiply by R(cos_i)).
   template <class C>

@@ -147,10 +147,13 @@ Lobe<T> make_lobe(const ModelSpec& spec, std::span<const T> values) {
     case ModelId::mirror: return Mirror{};
     case ModelId::trowbridge_reitz: return TrowbridgeReitz<T>{values[0]};
     case ModelId::blinn_1977_cosine: return Blinn<T>{values[0], BlinnDensity::cosine_power, BlinnScale(spec.form)};
-    case ModelId::blinn_1977_gaussian: return Blinn<T>{values[0], BlinnDensity::gaussian_angle};
+    case ModelId::blinn_1977_gaussian:
+      return Blinn<T>{values[0], BlinnDensity::gaussian_angle, BlinnScale(spec.form),
+                      BlinnScale(spec.form) == BlinnScale::normalised ? gaussian_angle_integral(values[0]) : T(1)};
     case ModelId::torrance_sparrow_1967: return Blinn<T>{values[0], BlinnDensity::gaussian_angle, BlinnScale::facet_area};
     case ModelId::blinn_1977_spheroid: return Blinn<T>{values[0], BlinnDensity::spheroid, BlinnScale(spec.form)};
     case ModelId::cook_torrance_1981: return CookTorrance<T>{values[0], CookDensity(spec.form)};
+    case ModelId::cook_torrance_1981_two_widths: return CookTorrance<T>{values[0], CookDensity::beckmann, values[1], values[2]};
     case ModelId::phong_1975: return PhongHighlight<T>{values[0], Highlight::mirror_direction};
     case ModelId::whitted_1980: return PhongHighlight<T>{values[0], Highlight::half_vector};
     case ModelId::he_1991: return HeTorrance<T>{values[0], values[1], HeReading(spec.form)};
@@ -184,7 +187,7 @@ T coherent_share(const Lobe<T>& lobe, const C& cos_i, const T& wavelength_um) {
   if (std::holds_alternative<Mirror>(lobe)) return T(1);
   if (const auto* he = std::get_if<HeTorrance<T>>(&lobe)) return he->coherent_share(cos_i, wavelength_um);
   const auto* kirchhoff = std::get_if<BeckmannKirchhoff<T>>(&lobe);
-  if (!kirchhoff || kirchhoff->form != KirchhoffForm::series) return T(0);
+  if (!kirchhoff || !kirchhoff->has_coherent_part()) return T(0);
   return kirchhoff->coherent_share(cos_i, wavelength_um);
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <boost/math/quadrature/gauss.hpp>
+
 #include "base/scaled_exp.h"
 #include "base/two_terms.h"
 #include "brdf/ggx.h"
@@ -51,9 +53,26 @@ T blinn_density(BlinnDensity density, const T& tan2, const T& parameter, const T
   return T(0);
 }
 
+/// What exp(-(c·ζ)²) integrates to with cos ζ over the hemisphere, π·∫ exp(-(c·ζ)²)·sin 2ζ dζ up to π/2 (or 7/c, beyond which 1e-21 is left):
+/// Gauss-Legendre, 30 nodes, to double's last digits.
+template <class T>
+T gaussian_angle_integral(const T& c) {
+  using std::exp, std::sin;
+  using Rule = boost::math::quadrature::gauss<double, 30>;
+  const T half = T(0.5) * smaller_of(T(T(0.5) * kPi<T>), T(T(7) / c));
+  T sum(0);
+  for (std::size_t n = 0; n < Rule::abscissa().size(); ++n)
+    for (const double side : {-1.0, 1.0}) {
+      const T zeta = half * T(scalar_t<T>(1 + side * Rule::abscissa()[n]));
+      sum += T(scalar_t<T>(Rule::weights()[n])) * exp(-square(T(c * zeta))) * sin(T(2) * zeta);
+    }
+  return kPi<T> * half * sum;
+}
+
 /// Blinn 1977 (SIGGRAPH, doi:10.1145/563858.563893). His term D·G·F/cos_o is an intensity: f = D·G·F/(cos_i·cos_o), V-cavity
-/// G. published: D as printed, so no density: E may exceed 1. normalised (cosine power, spheroid): D integrates to 1 over
-/// projected solid angle, (n+2)/(2π) and 1/(π·e²), and f = D·G·F/(4·cos_i·cos_o). Reciprocal.
+/// G. published: D as printed, so no density: E may exceed 1. normalised: D integrates to 1 over projected solid angle, (n+2)/(2π),
+/// 1/(π·e²) and 1/gaussian_angle_integral, and f = D·G·F/(4·cos_i·cos_o). Reciprocal. With c = 1/α the normalised Gaussian is Cook's D1
+/// with the one c that makes it a density.
 /// With the Gaussian of the angle and facet_area it is Torrance & Sparrow 1967 as published (Maillot 1996 eq. (6)):
 ///   f = a·b·exp(-(c·ζ)²)·G·F/(4·cos_i·cos_o), the facets' area a and their number b in ks.
 template <class T>
@@ -62,11 +81,13 @@ struct Blinn {
   T parameter;
   BlinnDensity density = BlinnDensity::cosine_power;
   BlinnScale scale = BlinnScale::published;
+  T integral = T(1);  ///< of the Gaussian, where it is normalised
 
   T factor() const {
     if (scale == BlinnScale::published) return T(1);
     if (scale == BlinnScale::facet_area) return T(0.25);
     if (density == BlinnDensity::cosine_power) return (parameter + T(2)) / (T(8) * kPi<T>);
+    if (density == BlinnDensity::gaussian_angle) return T(1) / (T(4) * integral);
     return T(1) / (T(4) * kPi<T> * square(parameter));
   }
 
@@ -78,8 +99,8 @@ struct Blinn {
   }
 };
 
-/// Cook's laws of facets: his D2, Beckmann's as printed, exp(-tan²ζ/α²)/(α²·cos⁴ζ) (no 1/π); his D1, exp(-(ζ/α)²) with c = 1. His D3 is
-/// a weighted sum of these at several α.
+/// Cook's laws of facets: his D2, Beckmann's as printed, exp(-tan²ζ/α²)/(α²·cos⁴ζ) (no 1/π); his D1, exp(-(ζ/α)²) with c = 1. His
+/// D3 = Σ w_j·D(α_j), Σ w_j = 1, sums these at several α: here two of D2, (1 - weight_2)·D(alpha) + weight_2·D(alpha_2).
 enum class CookDensity { beckmann, gaussian_angle };
 
 /// Cook & Torrance 1981 (SIGGRAPH; ACM TOG 1(1), doi:10.1145/357290.357293) as published: f = F·D·G/(π·cos_i·cos_o), V-cavity G.
@@ -90,12 +111,19 @@ struct CookTorrance {
   static constexpr bool kFacets = true, kDiffracts = false;
   T alpha;
   CookDensity density = CookDensity::beckmann;
+  T alpha_2 = T(1), weight_2 = T(0);
 
   template <class G>
   T shape(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o), tan2(w.tan2_h);
     const T scale = v_cavity(cos_i, cos_o, T(w.cos2_d())).value() / (kPi<T> * cos_i * cos_o);
     if (density == CookDensity::gaussian_angle) return scaled_exp(scale, T(square(T(angle_of(tan2) / alpha))));
+    return (T(1) - weight_2) * law(tan2, alpha, scale) + weight_2 * law(tan2, alpha_2, scale);
+  }
+
+ private:
+  /// Beckmann's law as printed, without 1/π.
+  static T law(const T& tan2, const T& alpha, const T& scale) {
     return scaled_exp(T(scale / square(alpha)), T(tan2 / square(alpha)), T(T(1) + tan2));
   }
 };

@@ -9,6 +9,8 @@ std::vector<ModelInfo> classical_models() {
   const ParameterInfo spheroid{"e", "1", "excentricity of the spheroid (alpha of GGX)", 1e-4, 1, 7e-3, 1, std::nullopt};
   const ParameterInfo sigma0{"sigma0_um", "um", "height rms", 1e-4, 1e3, 0.02, 5, std::nullopt};
   const ParameterInfo correlation{"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100, std::nullopt};
+  const ParameterInfo alpha_2{"alpha_2", "1", "roughness of the second width", 1e-4, 10, 7e-3, 1.4, std::nullopt};
+  const ParameterInfo weight_2{"weight_2", "1", "share of the second width", 0, 1, 1e-2, 1, std::nullopt};
   const std::string_view blinn = "Blinn 1977, doi:10.1145/563858.563893", blinn_formula = "f = kd/pi + ks D G F(cos_d)/(cos_i cos_o)";
   return {
       {ModelId::mirror, "mirror", "ideal mirror (a delta) over a diffuse part", "f = kd/pi + ks R(cos_i) delta(mirror)",
@@ -22,12 +24,16 @@ std::vector<ModelInfo> classical_models() {
       {ModelId::blinn_1977_cosine, "blinn-1977-cosine", "Blinn's facets, cosine power", blinn_formula, blinn, {power, kKd, kKs}, {}, scales,
        true, false, true, false},
       {ModelId::blinn_1977_gaussian, "blinn-1977-gaussian", "Blinn's facets, Gaussian of the angle", blinn_formula, blinn,
-       {decay, kKd, kKs}, {}, published, true, false, true, false},
+       {decay, kKd, kKs}, {}, scales, true, false, true, false},
       {ModelId::blinn_1977_spheroid, "blinn-1977-spheroid", "Blinn's facets, Trowbridge-Reitz spheroids", blinn_formula, blinn,
        {spheroid, kKd, kKs}, {}, scales, true, false, true, false},
       {ModelId::cook_torrance_1981, "cook-torrance-1981", "Cook & Torrance as published (corrected: torrance-sparrow)",
        "f = kd/pi + ks F D G/(pi cos_i cos_o)", "Cook & Torrance 1981, doi:10.1145/357290.357293", {kAlpha, kKd, kKs}, {},
        {"beckmann", "gaussian-angle"}, true, false, true, false},
+      {ModelId::cook_torrance_1981_two_widths, "cook-torrance-1981-two-widths", "Cook & Torrance as published with Cook's D3: two Beckmann widths",
+       "f = kd/pi + ks F [(1 - weight_2) D(alpha) + weight_2 D(alpha_2)] G/(pi cos_i cos_o)",
+       "Cook & Torrance 1981, doi:10.1145/357290.357293; Maillot 1996, II.1.2",
+       {kAlpha, alpha_2, weight_2, kKd, kKs}, {}, published, true, false, true, false},
       {ModelId::phong_1975, "phong-1975", "Phong's highlight, an intensity", "f = kd/pi + ks cos^n(s)/cos_i",
        "Phong 1975, doi:10.1145/360825.360839", {power, kKd, kKs}, {}, published, false, false, false, false},
       {ModelId::whitted_1980, "whitted-1980", "Whitted's highlight about the half vector, an intensity", "f = kd/pi + ks cos^n(zeta_h)/cos_i",

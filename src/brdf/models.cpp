@@ -25,12 +25,13 @@ std::vector<ModelInfo> thesis_models() {
        {kSlope, kKd, kKs}, {"v-cavity", "smith-separable", "smith-correlated", "smith-1967", "none"},
        {"exact", "schlick-f", "schlick-d", "schlick-g", "schlick", "walter-g", "erfcx", "erfc"}, true, true, true, false},
       {ModelId::beckmann_kirchhoff, "beckmann-kirchhoff", "Beckmann-Kirchhoff diffraction (18a), incoherent part + coherent energy",
-       "f = kd/pi + ks R(cos_d) pi T^2 F'^2/(lambda^2 cos_i cos_o) sum_j Pois(j;g)/j exp(-v_xy^2 T^2/(4j))",
+       "f = kd/pi + ks R(cos_d) pi T^2 F'^2/(lambda^2 cos_i cos_o) sum_j Pois(j;g)/j exp(-v_xy^2 T^2/(4j)); "
+       "nieto-vesperinas-1982: times (cos_i/cos_o)^2",
        "Beckmann & Spizzichino 1963; Maillot 1996, eq. (18a)",
        {{"sigma_um", "um", "height rms", 1e-4, 1e3, 0.02, 5, std::nullopt},
         {"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100, std::nullopt},
         kKd, kKs},
-       {}, {"exact", "rough-limit", "smooth-limit"}, true, false, false, true},
+       {}, {"exact", "rough-limit", "smooth-limit", "nieto-vesperinas-1982"}, true, false, false, true, {"nieto-vesperinas-1982"}},
       {ModelId::stogryn_1967, "stogryn-1967", "Very rough surfaces of finite conductivity, R by polarisation at half the angle between i and o",
        "f = kd/pi + ks R(cos_d) D/(4 cos_i cos_o), Beckmann's D; in-plane-s, -p: R_s, R_p of light in the plane of incidence",
        "Stogryn 1967; Maillot 1996, I.2.3.4", {kSlope, kKd, kKs}, {}, {"exact", "in-plane-s", "in-plane-p"}, true, false, false, false},
@@ -69,6 +70,11 @@ std::size_t ModelInfo::index_of(std::string_view parameter) const {
     known += fmt::format("{}{}", known.empty() ? "" : ", ", parameters[i].name);
   }
   throw input_error("{}: unknown parameter of {}; expected {}", parameter, name, known);
+}
+
+bool ModelSpec::reciprocal() const {
+  const auto& exceptions = info().variants_not_reciprocal;
+  return info().reciprocal && std::find(exceptions.begin(), exceptions.end(), variant()) == exceptions.end();
 }
 
 void set_retro(ModelSpec& spec, std::string_view yes_or_no) {

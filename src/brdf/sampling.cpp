@@ -42,7 +42,7 @@ double sampling_alpha(const Lobe<double>& lobe, double wavelength_um) {
                    if (one.density == BlinnDensity::cosine_power) return width_of_power(one.parameter);
                    return one.density == BlinnDensity::spheroid ? one.parameter : std::min(1.0, 1 / one.parameter);
                  },
-                 [](const CookTorrance<double>& one) { return one.alpha; },
+                 [](const CookTorrance<double>& one) { return one.weight_2 > 0 ? std::max(one.alpha, one.alpha_2) : one.alpha; },
                  [](const PhongHighlight<double>& one) {
                    return (one.highlight == Highlight::half_vector ? 1 : 0.5) * width_of_power(one.n);
                  },

@@ -38,7 +38,8 @@ Json describe(const ModelInfo& info) {
           {"needs_wavelength", info.needs_wavelength},
           {"polarisation", polarisation_of(info)},
           {"claims",
-           {{"reciprocal", info.reciprocal}, {"conserving", info.conserving}, {"bounded_at_grazing", info.bounded_at_grazing}}}};
+           {{"reciprocal", info.reciprocal}, {"conserving", info.conserving}, {"bounded_at_grazing", info.bounded_at_grazing},
+            {"variants_not_reciprocal", info.variants_not_reciprocal}}}};
 }
 
 void print_card(const ModelInfo& info) {
@@ -49,8 +50,11 @@ void print_card(const ModelInfo& info) {
   if (!info.shadowings.empty())
     fmt::print("  shadowing       {} (default {})\n", fmt::join(info.shadowings, ", "), name_of(ModelSpec{}.shadowing));
   fmt::print("  variants        {}\n", fmt::join(info.variants, ", "));
+  const std::string exceptions = info.variants_not_reciprocal.empty()
+                                     ? ""
+                                     : fmt::format(" (variant {}: not)", fmt::join(info.variants_not_reciprocal, ", "));
   fmt::print("  polarisation    {}\n", polarisation_of(info));
-  fmt::print("  claims          {}, {}, {}{}\n\n", info.reciprocal ? "reciprocal" : "not reciprocal",
+  fmt::print("  claims          {}{}, {}, {}{}\n\n", info.reciprocal ? "reciprocal" : "not reciprocal", exceptions,
              info.conserving ? "conserving for kd + ks <= 1" : "not conserving by itself (see `gonio table limits`)",
              info.bounded_at_grazing ? "bounded at grazing" : "unbounded at grazing",
              info.needs_wavelength ? "; needs the wavelength" : "");

@@ -169,10 +169,19 @@ void refuse_anisotropic(const Lobe<double>& lobe) {
                       "roughnesses (alpha_x = alpha_y, nu = nv, c_x = c_y) to be equal");
 }
 
+/// f ~ cos_o^-3: ∫ f·cos_o dω_o has no value, and a quadrature would look for it for ever.
+void refuse_infinite(const Lobe<double>& lobe) {
+  const auto* kirchhoff = std::get_if<BeckmannKirchhoff<double>>(&lobe);
+  if (kirchhoff && kirchhoff->form == KirchhoffForm::nieto_vesperinas_1982)
+    throw input_error("beckmann-kirchhoff, nieto-vesperinas-1982: its directional reflectance is infinite (f grows as 1/cos_o^3 "
+                      "next to the horizon); expected another variant");
+}
+
 std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
                                               double tolerance) {
   if (std::holds_alternative<Lambert>(lobe) || std::holds_alternative<Mirror>(lobe)) return std::vector<Estimate>(surface.size());
   refuse_anisotropic(lobe);
+  refuse_infinite(lobe);
   if (diffracts(lobe))
     return reflectance_over_direction_cosines(lobe, theta_i_deg, surface, tolerance);
   return reflectance_over_slopes(lobe, theta_i_deg, surface, tolerance);
