@@ -172,6 +172,19 @@ Dual<T, N> cos(const Dual<T, N>& x) {
   return chain(x, T(cos(x.a)), T(-sin(x.a)));
 }
 template <class T, int N>
+Dual<T, N> atan(const Dual<T, N>& x) {
+  using std::atan;
+  return chain(x, T(atan(x.a)), T(T(1) / (T(1) + square(x.a))));
+}
+template <class T, int N>
+Dual<T, N> atan2(const Dual<T, N>& y, const Dual<T, N>& x) {
+  using std::atan2;
+  const T length2 = square(x.a) + square(y.a), inverse = T(1) / select(length2 > T(0), length2, T(1));
+  Dual<T, N> r(T(atan2(y.a, x.a)));
+  for (int i = 0; i < N; ++i) r.v[i] = (x.a * y.v[i] - y.a * x.v[i]) * inverse;
+  return r;
+}
+template <class T, int N>
 Dual<T, N> erfc(const Dual<T, N>& x) {
   using std::erfc;
   return chain(x, T(erfc(x.a)), T(T(-2) / kSqrtPi<T> * fast_exp(T(-square(x.a)))));

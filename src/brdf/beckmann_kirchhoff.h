@@ -1,12 +1,13 @@
 #pragma once
 #include "brdf/directions.h"
-#include "brdf/poisson_lanes.h"
+#include "brdf/poisson_variants.h"
 #include "surface/normals.h"
 
 namespace gonio {
 
-/// Which form of the series: the whole of it, one of its limits, or the whole with another factor F (below).
-enum class KirchhoffForm { series, rough_limit, smooth_limit, nieto_vesperinas_1982 };
+/// Which form of the series: the whole of it, one of its limits, the whole with another factor F (below); or the sum by another
+/// method (brdf/poisson_variants.h): outwards from the largest term in every number type, 10 or 40 terms, a Gauss rule.
+enum class KirchhoffForm { series, rough_limit, smooth_limit, nieto_vesperinas_1982, outwards, ten_terms, forty_terms, gauss_12 };
 
 /// Beckmann-Kirchhoff diffraction by a Gaussian rough surface with autocorrelation exp(-τ²/T²).
 /// Beckmann & Spizzichino 1963, ch. 5; Maillot 1996 eq. (18a), §I.2.3.2. With u, w the components of i + o in and across the
@@ -46,11 +47,18 @@ struct BeckmannKirchhoff {
     const T g = phase_variance(w, wavelength_um);
     T scale = kPi<T> * square(correlation_um / wavelength_um) * square(f_prime) / cosines;
     if (form == KirchhoffForm::nieto_vesperinas_1982) scale = scale * square(T(T(w.cos_i) / T(w.cos_o)));
-    return form == KirchhoffForm::smooth_limit ? scaled_exp(T(scale * g), T(g + b)) : diffraction_series(g, b, scale);
+    switch (form) {
+      case KirchhoffForm::smooth_limit: return scaled_exp(T(scale * g), T(g + b));
+      case KirchhoffForm::outwards: return poisson_lobe_sum(g, b, scale);
+      case KirchhoffForm::ten_terms: return poisson_lobe_fixed_terms(g, b, scale, 10);
+      case KirchhoffForm::forty_terms: return poisson_lobe_fixed_terms(g, b, scale, 40);
+      case KirchhoffForm::gauss_12: return poisson_lobe_gauss<12>(g, b, scale);
+      default: return diffraction_series(g, b, scale);
+    }
   }
 
   /// Whether the coherent part belongs to the form: the limits are of the incoherent lobe alone.
-  bool has_coherent_part() const { return form == KirchhoffForm::series || form == KirchhoffForm::nieto_vesperinas_1982; }
+  bool has_coherent_part() const { return form != KirchhoffForm::rough_limit && form != KirchhoffForm::smooth_limit; }
 
   /// Share of the mirror's energy that stays coherent, exp(-g) at o = mirror of i (multiply by R(cos_i)).
   template <class C>

@@ -31,7 +31,7 @@ std::vector<ModelInfo> thesis_models() {
        {{"sigma_um", "um", "height rms", 1e-4, 1e3, 0.02, 5, std::nullopt},
         {"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100, std::nullopt},
         kKd, kKs},
-       {}, {"exact", "rough-limit", "smooth-limit", "nieto-vesperinas-1982"}, true, false, false, true, {"nieto-vesperinas-1982"}},
+       {}, {"exact", "rough-limit", "smooth-limit", "nieto-vesperinas-1982", "outwards", "series-10", "series-40", "gauss-12"}, true, false, false, true, {"nieto-vesperinas-1982"}},
       {ModelId::stogryn_1967, "stogryn-1967", "Very rough surfaces of finite conductivity, R by polarisation at half the angle between i and o",
        "f = kd/pi + ks R(cos_d) D/(4 cos_i cos_o), Beckmann's D; in-plane-s, -p: R_s, R_p of light in the plane of incidence",
        "Stogryn 1967; Maillot 1996, I.2.3.4", {kSlope, kKd, kKs}, {}, {"exact", "in-plane-s", "in-plane-p"}, true, false, false, false},

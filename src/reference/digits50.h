@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/special.h"
-#include "brdf/poisson_series.h"
+#include "brdf/poisson_variants.h"
 
 namespace gonio {
 
@@ -89,6 +89,11 @@ inline Digits50 stirling_error(const Digits50& x) {
 template <>
 inline Digits50 poisson_deviance(const Digits50& x, const Digits50& d, const Digits50& g) {
   return x * log(Digits50(x / g)) - d;
+}
+
+template <>
+inline Digits50 log_of_term(int j) {
+  return lgamma(Digits50(j + 1)) + log(Digits50(j));
 }
 
 }  // namespace gonio

@@ -5,22 +5,28 @@
 
 namespace gonio {
 
+/// exp(-2x)·base²/norm, the exponential as the square of its scaled root: 1/(π α² 4 cos_i cos_o) reaches 1e18, and f keeps its digits
+/// long after exp(-tan²ζ/α²) has left the range of float.
+template <class T>
+Ratio<T> gaussian_fraction(const T& x, const T& base, const T& norm) {
+  const T scale(16777216.0);
+  return {square(T(exp_of_decay<0>(T(-x)) * (scale * base))), square(scale) * norm};
+}
+
 /// Beckmann's density of normals, per steradian; ∫ D cos dω = 1.
 /// Beckmann & Spizzichino 1963 (their p(β) as a density over solid angle); D = exp(-tan²ζ/α²)/(π α² cos⁴ζ).
-/// The exponential as the square of its scaled root: 1/(π α² 4 cos_i cos_o) reaches 1e18, and f keeps its digits long after
-/// exp(-tan²ζ/α²) has left the range of float.
-template <class T>
-Ratio<T> gaussian_fraction(const T& slopes, const T& one_plus_tan2, const T& norm) {
-  const T scale(16777216.0);
-  return {square(T(exp_of_decay<0>(T(T(-0.5) * slopes)) * (scale * one_plus_tan2))), square(scale) * norm};
-}
 template <class T>
 Ratio<T> beckmann_fraction(const T& tan2_h, const T& alpha) {
-  return gaussian_fraction(T(tan2_h * (T(1) / square(alpha))), T(T(1) + tan2_h), T(kPi<T> * square(alpha)));
+  return gaussian_fraction(T(tan2_h * (T(0.5) / square(alpha))), T(T(1) + tan2_h), T(kPi<T> * square(alpha)));
 }
 template <class T>
 T beckmann_d(const T& tan2_h, const T& alpha) {
   return beckmann_fraction(tan2_h, alpha).value();
+}
+/// Times `scale`, which may bring back what float would flush.
+template <class T>
+T beckmann_d(const T& tan2_h, const T& alpha, const T& scale) {
+  return scaled_exp(T(scale / (kPi<T> * square(alpha))), T(tan2_h / square(alpha)), T(T(1) + tan2_h));
 }
 
 /// Schlick 1992's rational density for Beckmann's, with its 1/π: (t - 1 + 2α²)³/(8π·t·α⁸), t = cos ζ, 0 below t = 1 - 2α²; meant for
