@@ -27,13 +27,16 @@ template <class T>
 void evaluate_block(const ModelSpec& spec, std::span<const BrdfPoint> points, double* f) {
   const auto number = [&](const std::function<double(const BrdfPoint&)>& of) { return lanes_of<T>(points, of); };
   std::vector<T> values;
-  for (std::size_t p = 0; p < points[0].values.size(); ++p) values.push_back(number([p](const BrdfPoint& at) { return at.values[p]; }));
+  for (std::size_t p = 0; p < points[0].values.size(); ++p)
+    values.push_back(number([p](const BrdfPoint& at) { return at.values[p]; }));
   const Directions<T> w =
-      reduce(number([](const auto& at) { return at.i.x; }), number([](const auto& at) { return at.i.y; }), number([](const auto& at) { return at.i.z; }),
-             number([](const auto& at) { return at.o.x; }), number([](const auto& at) { return at.o.y; }), number([](const auto& at) { return at.o.z; }));
-  const Interface<T> surface{number([](const auto& at) { return at.surface.n; }), number([](const auto& at) { return at.surface.k; }),
-                             points[0].surface.perfect};
-  const T result = evaluate(make_brdf<T>(spec, values), w, surface, number([](const auto& at) { return at.wavelength_um; }));
+      reduce(number([](const auto& at) { return at.i.x; }), number([](const auto& at) { return at.i.y; }),
+             number([](const auto& at) { return at.i.z; }), number([](const auto& at) { return at.o.x; }),
+             number([](const auto& at) { return at.o.y; }), number([](const auto& at) { return at.o.z; }));
+  const Interface<T> surface{number([](const auto& at) { return at.surface.n; }),
+                             number([](const auto& at) { return at.surface.k; }), points[0].surface.perfect};
+  const T result =
+      evaluate(make_brdf<T>(spec, values), w, surface, number([](const auto& at) { return at.wavelength_um; }));
   if constexpr (is_lanes_v<T>) {
     alignas(64) std::array<scalar_t<T>, T::size> all;
     result.store_unaligned(all.data());
@@ -58,7 +61,8 @@ std::vector<double> evaluate_all(const ModelSpec& spec, std::span<const BrdfPoin
   return f;
 }
 
-/// R near total reflection changes as the root of the distance to it: the input's own rounding is more than the bars there.
+/// R near total reflection changes as the root of the distance to it: the input's own rounding is more than the bars
+/// there.
 bool next_to_critical(const BrdfPoint& point, double cos2_d, Precision precision) {
   const double n = point.surface.n, k = point.surface.k;
   if (point.surface.perfect || n >= 1) return false;
@@ -99,21 +103,29 @@ std::vector<double> peaks(std::span<const BrdfPoint> points, std::span<const dou
 
 std::string_view name_of(NumberPath path) {
   switch (path) {
-    case NumberPath::double_scalar: return "double";
-    case NumberPath::double_lanes: return "double lanes";
-    case NumberPath::float_lanes: return "float lanes";
+    case NumberPath::double_scalar:
+      return "double";
+    case NumberPath::double_lanes:
+      return "double lanes";
+    case NumberPath::float_lanes:
+      return "float lanes";
   }
   return "";
 }
 
-Precision precision_of(NumberPath path) { return path == NumberPath::float_lanes ? Precision::single : Precision::twofold; }
+Precision precision_of(NumberPath path) {
+  return path == NumberPath::float_lanes ? Precision::single : Precision::twofold;
+}
 
 BrdfEvaluator own_evaluator(const ModelSpec& spec, NumberPath path) {
   return [spec, path](std::span<const BrdfPoint> points) {
     switch (path) {
-      case NumberPath::double_lanes: return evaluate_all<DoubleLanes>(spec, points);
-      case NumberPath::float_lanes: return evaluate_all<FloatLanes>(spec, points);
-      default: return evaluate_all<double>(spec, points);
+      case NumberPath::double_lanes:
+        return evaluate_all<DoubleLanes>(spec, points);
+      case NumberPath::float_lanes:
+        return evaluate_all<FloatLanes>(spec, points);
+      default:
+        return evaluate_all<double>(spec, points);
     }
   };
 }
@@ -127,7 +139,9 @@ BrdfEvaluator pointwise(std::function<double(const BrdfPoint&)> f) {
 }
 
 std::vector<double> reference_values(const ModelSpec& spec, std::span<const BrdfPoint> points) {
-  return pointwise([&spec](const BrdfPoint& at) { return reference_value(spec, at.values, at.i, at.o, at.surface, at.wavelength_um); })(points);
+  return pointwise([&spec](const BrdfPoint& at) {
+    return reference_value(spec, at.values, at.i, at.o, at.surface, at.wavelength_um);
+  })(points);
 }
 
 ErrorBar error_bar(const ModelSpec& spec, Precision precision) {
@@ -152,11 +166,13 @@ CaseError measure(const ModelSpec& spec, Precision precision, std::string path, 
     if (!std::isfinite(f[p])) continue;
     if (ill_conditioned(spec, points[p], precision)) {
       ++result.ill_conditioned;
-      if (peak[points[p].set] > 0) result.largest_ill = std::max(result.largest_ill, std::abs(f[p] - exact[p]) / peak[points[p].set]);
+      if (peak[points[p].set] > 0)
+        result.largest_ill = std::max(result.largest_ill, std::abs(f[p] - exact[p]) / peak[points[p].set]);
       continue;
     }
     const bool twofold = precision == Precision::twofold;
-    const bool bright = exact[p] > (twofold ? 1e-290 : std::max(1e-30, 1e-6 * peak[points[p].set])), faint = !bright && !twofold && exact[p] > 1e-30;
+    const bool bright = exact[p] > (twofold ? 1e-290 : std::max(1e-30, 1e-6 * peak[points[p].set])),
+               faint = !bright && !twofold && exact[p] > 1e-30;
     if (!bright && !faint) continue;
     const double error = std::abs(f[p] - exact[p]) / exact[p];
     result.reciprocity = std::max(result.reciprocity, std::abs(f[p] - back[p]) / exact[p]);
@@ -187,7 +203,8 @@ std::vector<CaseError> brdf_errors(const ErrorOptions& options) {
   tbb::parallel_for(std::size_t(0), cases.size(), [&](std::size_t c) {
     const ModelSpec& spec = cases[c];
     const auto one = [&](NumberPath path, const std::vector<BrdfPoint>& points, const std::vector<double>& exact) {
-      return measure(spec, precision_of(path), std::string(name_of(path)), own_evaluator(spec, path), points, exact, options.measure);
+      return measure(spec, precision_of(path), std::string(name_of(path)), own_evaluator(spec, path), points, exact,
+                     options.measure);
     };
     std::vector<BrdfPoint> points = brdf_points(spec, Precision::twofold, options.points);
     std::vector<double> exact = reference_values(spec, points);

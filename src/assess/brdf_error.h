@@ -1,6 +1,6 @@
 #pragma once
-// What an evaluation loses: against the models' own formulas in 50 digits, given exactly the numbers that it received (unit
-// vectors, parameters, index and wavelength already rounded to its precision).
+// What an evaluation loses: against the models' own formulas in 50 digits, given exactly the numbers that it received
+// (unit vectors, parameters, index and wavelength already rounded to its precision).
 #include <functional>
 #include <span>
 
@@ -18,20 +18,20 @@ struct PointError {
   double f, exact, relative;
 };
 
-/// A measured case. `relative` counts where f is bright: above 1e-290 for double, above 1e-6 of the set's peak for float (the largest f
-/// of its directions), whose faint class runs from there down to 1e-30.
+/// A measured case. `relative` counts where f is bright: above 1e-290 for double, above 1e-6 of the set's peak for
+/// float (the largest f of its directions), whose faint class runs from there down to 1e-30.
 struct CaseError {
   std::string name, path;
   ModelSpec spec;
   std::size_t points = 0, bright = 0, faint = 0;
-  /// Points where f itself is no better known than its input, so not counted above: next to the critical angle of a thinner medium,
-  /// and to where Schlick's D reaches 0. Their largest error, beside the set's peak.
+  /// Points where f itself is no better known than its input, so not counted above: next to the critical angle of a
+  /// thinner medium, and to where Schlick's D reaches 0. Their largest error, beside the set's peak.
   std::size_t ill_conditioned = 0;
   double largest_ill = 0;
   double largest = 0, percentile_999 = 0, mean = 0, largest_faint = 0;
   std::size_t not_finite = 0, negative = 0;  ///< anywhere, ill-conditioned and vanishing f included
-  double reciprocity = 0;                    ///< largest |f(i,o) - f(o,i)|/f where bright or faint; 0 for models that claim none
-  std::vector<PointError> worst;             ///< the largest errors, first those that are no numbers
+  double reciprocity = 0;         ///< largest |f(i,o) - f(o,i)|/f where bright or faint; 0 for models that claim none
+  std::vector<PointError> worst;  ///< the largest errors, first those that are no numbers
 };
 
 /// f of each point; the numbers given are exact in the evaluator's precision.
@@ -61,8 +61,8 @@ struct ErrorOptions {
 /// Every case of brdf_cases() along the three paths.
 std::vector<CaseError> brdf_errors(const ErrorOptions& options);
 
-/// The error allowed: what the project promises (double 1e-12, float 5e-6 and 5e-5 where faint; the diffraction series and He
-/// 1e-10 and 2e-5).
+/// The error allowed: what the project promises (double 1e-12, float 5e-6 and 5e-5 where faint; the diffraction series
+/// and He 1e-10 and 2e-5).
 struct ErrorBar {
   double bright, faint;
 };

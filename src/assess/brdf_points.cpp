@@ -36,10 +36,10 @@ double inside(double x, const ParameterInfo& p, Precision precision) {
   return r;
 }
 
-/// Of four sets one is a corner (each parameter at an end of its box or of the fit's), one from the fit's box, the others follow `u`
-/// over the documented one.
-std::vector<double> parameters(const ModelSpec& spec, std::size_t set, const std::vector<double>& u, Uniform& random, Precision precision,
-                               const PointOptions& options) {
+/// Of four sets one is a corner (each parameter at an end of its box or of the fit's), one from the fit's box, the
+/// others follow `u` over the documented one.
+std::vector<double> parameters(const ModelSpec& spec, std::size_t set, const std::vector<double>& u, Uniform& random,
+                               Precision precision, const PointOptions& options) {
   const ModelInfo& info = spec.info();
   std::vector<double> values;
   const bool corner = set % 4 == 1, scaled = set % 4 == 3;
@@ -65,18 +65,34 @@ std::vector<double> parameters(const ModelSpec& spec, std::size_t set, const std
   return values;
 }
 
-/// Index matched to 1e-15 or 1e-7, thinner media with and without total reflection, glasses, weak and strong absorbers, metals.
+/// Index matched to 1e-15 or 1e-7, thinner media with and without total reflection, glasses, weak and strong absorbers,
+/// metals.
 Interface<double> material(std::size_t set, Uniform& random, Precision precision) {
   double n = 1.5, k = 0;
   switch (set % 8) {
-    case 0: n = random.log_between(0.05, 5), k = random.log_between(0.5, 12); break;
-    case 1: n = 1 + (random() < 0.5 ? -1 : 1) * random.log_between(1e-15, 0.3); break;
-    case 2: n = random.log_between(0.3, 0.99); break;
-    case 3: n = random.log_between(1.0, 5), k = random.log_between(1e-9, 1e-2); break;
-    case 4: n = random.log_between(0.01, 10), k = random.log_between(1e-6, 100); break;
-    case 5: n = 1, k = random.log_between(1e-12, 100); break;
-    case 6: return perfect_interface<double>();
-    default: n = random.log_between(1.0, 10); break;
+    case 0:
+      n = random.log_between(0.05, 5), k = random.log_between(0.5, 12);
+      break;
+    case 1:
+      n = 1 + (random() < 0.5 ? -1 : 1) * random.log_between(1e-15, 0.3);
+      break;
+    case 2:
+      n = random.log_between(0.3, 0.99);
+      break;
+    case 3:
+      n = random.log_between(1.0, 5), k = random.log_between(1e-9, 1e-2);
+      break;
+    case 4:
+      n = random.log_between(0.01, 10), k = random.log_between(1e-6, 100);
+      break;
+    case 5:
+      n = 1, k = random.log_between(1e-12, 100);
+      break;
+    case 6:
+      return perfect_interface<double>();
+    default:
+      n = random.log_between(1.0, 10);
+      break;
   }
   return {rounded(n, precision), rounded(k, precision)};
 }
@@ -84,7 +100,8 @@ Interface<double> material(std::size_t set, Uniform& random, Precision precision
 using V = UnitVector<double>;
 
 V direction(double theta, double phi) {
-  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), theta < 0.8 ? std::cos(theta) : std::sin(kPi<double> / 2 - theta)};
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+          theta < 0.8 ? std::cos(theta) : std::sin(kPi<double> / 2 - theta)};
 }
 
 /// Mirror image of v about the unit vector along (x, y, 1).
@@ -106,22 +123,36 @@ class Directions16 {
   Pair next(std::size_t kind) {
     const V o = direction(std::acos(1 - random_()), turn());
     switch (kind % 16) {
-      case 0: return {direction(std::acos(1 - random_()), turn()), o};
+      case 0:
+        return {direction(std::acos(1 - random_()), turn()), o};
       case 1:
       case 2:
-      case 3: return on_lobe(o, 1e-3, 14);
-      case 4: return on_lobe(o, 14, 100);
-      case 5: return on_lobe(o, 100, 700);
-      case 6: return about({-o.x, -o.y, o.z}, o, random_.log_between(1e-12, 1e-2));
-      case 7: return about(o, o, random_.log_between(1e-12, 1e-2));
-      case 8: return {o, o};
-      case 9: return {{-o.x, -o.y, o.z}, o};
-      case 10: return on_lobe({0, 0, 1}, 1e-3, 60);
-      case 11: return {{0, 0, 1}, random_() < 0.3 ? V{0, 0, 1} : o};
-      case 12: return grazing(kPi<double>);
-      case 13: return grazing(random_() < 0.5 ? 0 : kRightAngle);
-      case 14: return on_lobe(low(), 1e-3, 60);
-      default: return {low(), o};
+      case 3:
+        return on_lobe(o, 1e-3, 14);
+      case 4:
+        return on_lobe(o, 14, 100);
+      case 5:
+        return on_lobe(o, 100, 700);
+      case 6:
+        return about({-o.x, -o.y, o.z}, o, random_.log_between(1e-12, 1e-2));
+      case 7:
+        return about(o, o, random_.log_between(1e-12, 1e-2));
+      case 8:
+        return {o, o};
+      case 9:
+        return {{-o.x, -o.y, o.z}, o};
+      case 10:
+        return on_lobe({0, 0, 1}, 1e-3, 60);
+      case 11:
+        return {{0, 0, 1}, random_() < 0.3 ? V{0, 0, 1} : o};
+      case 12:
+        return grazing(kPi<double>);
+      case 13:
+        return grazing(random_() < 0.5 ? 0 : kRightAngle);
+      case 14:
+        return on_lobe(low(), 1e-3, 60);
+      default:
+        return {low(), o};
     }
   }
 
@@ -150,9 +181,11 @@ class Directions16 {
     return {normalised(i.x, i.y, i.z), o};
   }
   Pair grazing(double side) {
-    const double phi = turn(), a = random_() < 0.3 ? kGrazing : random_.log_between(kGrazing, 0.2), b = random_() < 0.3 ? a : random_.log_between(kGrazing, 0.2);
+    const double phi = turn(), a = random_() < 0.3 ? kGrazing : random_.log_between(kGrazing, 0.2),
+                 b = random_() < 0.3 ? a : random_.log_between(kGrazing, 0.2);
     const double beside = random_() < 0.3 ? 0 : random_.log_between(1e-9, 1), other = phi + side + beside;
-    return {{std::cos(a) * std::cos(phi), std::cos(a) * std::sin(phi), std::sin(a)}, {std::cos(b) * std::cos(other), std::cos(b) * std::sin(other), std::sin(b)}};
+    return {{std::cos(a) * std::cos(phi), std::cos(a) * std::sin(phi), std::sin(a)},
+            {std::cos(b) * std::cos(other), std::cos(b) * std::sin(other), std::sin(b)}};
   }
 };
 
@@ -194,7 +227,8 @@ std::vector<ModelSpec> brdf_cases() {
   return cases;
 }
 
-LobeWidth lobe_width(const ModelSpec& spec, const std::vector<double>& values, const Interface<double>& surface, double wavelength_um) {
+LobeWidth lobe_width(const ModelSpec& spec, const std::vector<double>& values, const Interface<double>& surface,
+                     double wavelength_um) {
   ModelSpec upright = spec;
   upright.retro = false;
   Brdf<double> brdf = make_brdf<double>(upright, values);

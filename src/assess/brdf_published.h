@@ -1,6 +1,6 @@
 #pragma once
-// Reflection models as textbooks print them and published code computes them, in plain float or double: what the stability maps set
-// beside this project's own forms. Kept for the assessment only.
+// Reflection models as textbooks print them and published code computes them, in plain float or double: what the
+// stability maps set beside this project's own forms. Kept for the assessment only.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,7 +42,8 @@ S torrance_sparrow(S alpha, const UnitVector<S>& i, const UnitVector<S>& o, S n,
 template <class S>
 S anisotropic_beckmann(S alpha_x, S alpha_y, const UnitVector<S>& i, const UnitVector<S>& o) {
   const UnitVector<S> h = normalised(S(i.x + o.x), S(i.y + o.y), S(i.z + o.z));
-  const S c2 = h.z * h.z, t2 = (1 - c2) / c2, phi = std::atan2(h.y, h.x), cx = std::cos(phi) / alpha_x, cy = std::sin(phi) / alpha_y;
+  const S c2 = h.z * h.z, t2 = (1 - c2) / c2, phi = std::atan2(h.y, h.x), cx = std::cos(phi) / alpha_x,
+          cy = std::sin(phi) / alpha_y;
   return std::exp(-t2 * (cx * cx + cy * cy)) / (kPi<S> * alpha_x * alpha_y * c2 * c2) / (4 * i.z * o.z);
 }
 
@@ -54,7 +55,8 @@ std::array<S, 5> angles_of(const UnitVector<S>& i, const UnitVector<S>& o) {
   return {i.z, si, o.z, so, std::cos(phi)};
 }
 
-/// (18a) with `terms` terms of g^m/m! by a running product from exp(-g), F' from 1 + cos·cos - sin·sin·cos θ3 (θ3 = φ - 180°).
+/// (18a) with `terms` terms of g^m/m! by a running product from exp(-g), F' from 1 + cos·cos - sin·sin·cos θ3 (θ3 = φ -
+/// 180°).
 template <class S>
 S kirchhoff_sum(S g, S b, int terms) {
   S power = std::exp(-g), sum = 0;
@@ -73,14 +75,16 @@ S kirchhoff(S sigma_um, S correlation_um, S wavelength_um, const UnitVector<S>& 
   return kPi<S> * correlation_um * correlation_um * f * f / (wavelength_um * wavelength_um * ci * co) * sum;
 }
 
-/// He et al. 1991: G from cross products of s and p, Newton for the effective roughness, Λ as a difference, `terms` terms.
+/// He et al. 1991: G from cross products of s and p, Newton for the effective roughness, Λ as a difference, `terms`
+/// terms.
 template <class S>
 S he(S sigma0_um, S correlation_um, S wavelength_um, const UnitVector<S>& i, const UnitVector<S>& o, int terms) {
   const auto cross = [](const UnitVector<S>& a, const UnitVector<S>& b) {
     return UnitVector<S>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   };
   const UnitVector<S> ki{-i.x, -i.y, -i.z}, up{0, 0, 1}, ci = cross(ki, up), co = cross(o, up);
-  const UnitVector<S> si = normalised(ci.x, ci.y, ci.z), so = normalised(co.x, co.y, co.z), pi = cross(si, ki), po = cross(so, o);
+  const UnitVector<S> si = normalised(ci.x, ci.y, ci.z), so = normalised(co.x, co.y, co.z), pi = cross(si, ki),
+                      po = cross(so, o);
   const UnitVector<S> v{o.x - ki.x, o.y - ki.y, o.z - ki.z}, across = cross(o, ki);
   const S v2 = dot(v, v), c2 = dot(across, across), a = dot(so, ki), b = dot(po, ki), c = dot(si, o), d = dot(pi, o);
   const S geometry = v2 * v2 / (v.z * v.z) * (a * a + b * b) * (c * c + d * d) / (c2 * c2);
@@ -99,8 +103,8 @@ S he(S sigma0_um, S correlation_um, S wavelength_um, const UnitVector<S>& i, con
   const S ratio = z0 / sigma0_um, sigma = sigma0_um / std::sqrt(1 + ratio * ratio), wave = 2 * kPi<S> / wavelength_um;
   const S root = wave * sigma * v.z, flat2 = wave * wave * (v.x * v.x + v.y * v.y);
   const S sum = kirchhoff_sum(S(root * root), S(flat2 * correlation_um * correlation_um / 4), terms);
-  return geometry * seen(i.z) * seen(o.z) * kPi<S> * correlation_um * correlation_um / (4 * wavelength_um * wavelength_um) * sum /
-         (i.z * o.z);
+  return geometry * seen(i.z) * seen(o.z) * kPi<S> * correlation_um * correlation_um /
+         (4 * wavelength_um * wavelength_um) * sum / (i.z * o.z);
 }
 
 }  // namespace gonio::published

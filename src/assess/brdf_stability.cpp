@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-
 #include "energy/directional_reflectance.h"
 
 namespace gonio {
@@ -13,7 +12,8 @@ namespace {
 
 BrdfPoint rounded_point(BrdfPoint p, Precision precision) {
   for (double& value : p.values) value = rounded(value, precision);
-  for (UnitVector<double>* v : {&p.i, &p.o}) *v = {rounded(v->x, precision), rounded(v->y, precision), rounded(v->z, precision)};
+  for (UnitVector<double>* v : {&p.i, &p.o})
+    *v = {rounded(v->x, precision), rounded(v->y, precision), rounded(v->z, precision)};
   p.surface.n = rounded(p.surface.n, precision), p.surface.k = rounded(p.surface.k, precision);
   p.wavelength_um = rounded(p.wavelength_um, precision);
   return p;
@@ -24,7 +24,8 @@ double error_of(double f, double exact, double faintest) {
   return exact > faintest ? std::abs(f - exact) / exact : -1;
 }
 
-EnergyMap energy_map(std::string name, std::string label, double lo, double hi, const std::function<Lobe<double>(double)>& lobe) {
+EnergyMap energy_map(std::string name, std::string label, double lo, double hi,
+                     const std::function<Lobe<double>(double)>& lobe) {
   EnergyMap map{std::move(name), {std::move(label), lo, hi}, 14, 13, {}};
   map.cells.resize(map.columns * map.rows);
   tbb::parallel_for(std::size_t(0), map.cells.size(), [&](std::size_t cell) {
@@ -38,10 +39,15 @@ EnergyMap energy_map(std::string name, std::string label, double lo, double hi, 
 
 }  // namespace
 
+BrdfPoint sweep_point(const StabilitySweep& sweep, double x, double y, Precision precision) {
+  return rounded_point(sweep.point(x, y), precision);
+}
+
 StabilityMap stability_map(const StabilitySweep& sweep, std::size_t columns, std::size_t rows) {
   StabilityMap map{columns, rows, std::vector<StabilityCell>(columns * rows)};
   tbb::parallel_for(std::size_t(0), map.cells.size(), [&](std::size_t c) {
-    const double x = sweep.x.at(double(c % columns) / double(columns - 1)), y = sweep.y.at(double(c / columns) / double(rows - 1));
+    const double x = sweep.x.at(double(c % columns) / double(columns - 1)),
+                 y = sweep.y.at(double(c / columns) / double(rows - 1));
     map.cells[c] = {x, y, {}};
     for (const Precision precision : {Precision::single, Precision::twofold}) {
       const bool single = precision == Precision::single;
@@ -58,35 +64,45 @@ StabilityMap stability_map(const StabilitySweep& sweep, std::size_t columns, std
 }
 
 bool fails(const StabilitySweep& sweep, const StabilityCell& cell, std::size_t panel) {
-  const double bar = panel < 2 ? error_bar(sweep.spec, Precision::single).faint : error_bar(sweep.spec, Precision::twofold).bright;
+  const double bar =
+      panel < 2 ? error_bar(sweep.spec, Precision::single).faint : error_bar(sweep.spec, Precision::twofold).bright;
   return cell.error[panel] > bar;
 }
 
 std::vector<EnergyMap> energy_maps() {
-  const std::string slope = "log_{10} slope rms m", alpha = "log_{10} alpha", height = "log_{10} sigma/lambda, T = 10 lambda";
+  const std::string slope = "log_{10} slope rms m", alpha = "log_{10} alpha",
+                    height = "log_{10} sigma/lambda, T = 10 lambda";
   std::vector<EnergyMap> maps;
-  maps.push_back(energy_map("pseudo-realistic", slope, -2, 0.5, [](double m) { return Lobe<double>(PseudoRealistic<double>{m}); }));
+  maps.push_back(energy_map("pseudo-realistic", slope, -2, 0.5,
+                            [](double m) { return Lobe<double>(PseudoRealistic<double>{m}); }));
   maps.push_back(energy_map("torrance-sparrow smith-correlated", slope, -2, 0.5,
                             [](double m) { return Lobe<double>(TorranceSparrow<double>{std::sqrt(2.0) * m}); }));
-  maps.push_back(energy_map("torrance-sparrow none", slope, -2, 0.5,
-                            [](double m) { return Lobe<double>(TorranceSparrow<double>{std::sqrt(2.0) * m, Shadowing::none}); }));
-  maps.push_back(energy_map("cook-torrance-1981", alpha, -2, 0.5, [](double a) { return Lobe<double>(CookTorrance<double>{a}); }));
-  maps.push_back(energy_map("ward-duer-2006", alpha, -2, 0.5,
-                            [](double a) { return Lobe<double>(Ward<double>{a, a, WardForm::duer_2006}); }));
-  maps.push_back(energy_map("beckmann-kirchhoff", height, -2, 0.5,
-                            [](double s) { return Lobe<double>(BeckmannKirchhoff<double>{0.55 * s, 5.5}); }));
+  maps.push_back(energy_map("torrance-sparrow none", slope, -2, 0.5, [](double m) {
+    return Lobe<double>(TorranceSparrow<double>{std::sqrt(2.0) * m, Shadowing::none});
+  }));
+  maps.push_back(
+      energy_map("cook-torrance-1981", alpha, -2, 0.5, [](double a) { return Lobe<double>(CookTorrance<double>{a}); }));
+  maps.push_back(energy_map("ward-duer-2006", alpha, -2, 0.5, [](double a) {
+    return Lobe<double>(Ward<double>{a, a, WardForm::duer_2006});
+  }));
+  maps.push_back(energy_map("beckmann-kirchhoff", height, -2, 0.5, [](double s) {
+    return Lobe<double>(BeckmannKirchhoff<double>{0.55 * s, 5.5});
+  }));
   return maps;
 }
 
 std::string eval_line(const ModelSpec& spec, const BrdfPoint& at, std::string_view precision) {
-  std::string line = fmt::format("printf 'ix,iy,iz,ox,oy,oz\\n{},{},{},{},{},{}\\n' | gonio eval {}", at.i.x, at.i.y, at.i.z, at.o.x, at.o.y,
-                                 at.o.z, spec.info().name);
-  for (std::size_t p = 0; p < at.values.size(); ++p) line += fmt::format(" --set {}={}", spec.info().parameters[p].name, at.values[p]);
+  std::string line = fmt::format("printf 'ix,iy,iz,ox,oy,oz\\n{},{},{},{},{},{}\\n' | gonio eval {}", at.i.x, at.i.y,
+                                 at.i.z, at.o.x, at.o.y, at.o.z, spec.info().name);
+  for (std::size_t p = 0; p < at.values.size(); ++p)
+    line += fmt::format(" --set {}={}", spec.info().parameters[p].name, at.values[p]);
   if (!spec.info().shadowings.empty()) line += fmt::format(" --set shadowing={}", name_of(spec.shadowing));
   if (spec.retro) line += " --set retro=yes";
   if (spec.form > 0) line += fmt::format(" --variant {}", spec.variant());
-  if (at.surface.perfect) line += " --material perfect";
-  else line += fmt::format(" --n {} --k {}", at.surface.n, at.surface.k);
+  if (at.surface.perfect)
+    line += " --material perfect";
+  else
+    line += fmt::format(" --n {} --k {}", at.surface.n, at.surface.k);
   return line + fmt::format(" --at {} --precision {}", at.wavelength_um * 1000, precision);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Where reflection models fail, as maps: the textbook form in plain float and double beside this project's, against 50 digits.
+// Where reflection models fail, as maps: the textbook form in plain float and double beside this project's, against 50
+// digits.
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -37,6 +38,8 @@ struct StabilityMap {
   std::vector<StabilityCell> cells;  ///< row by row
 };
 inline constexpr std::array kMapPanels{"published, float", "ours, float", "published, double", "ours, double"};
+/// The point of a cell, each number rounded to the precision.
+BrdfPoint sweep_point(const StabilitySweep& sweep, double x, double y, Precision precision);
 StabilityMap stability_map(const StabilitySweep& sweep, std::size_t columns, std::size_t rows);
 /// Whether a cell fails: beyond the bar (float: that of faint lobes).
 bool fails(const StabilitySweep& sweep, const StabilityCell& cell, std::size_t panel);
@@ -50,7 +53,8 @@ struct EnergyMap {
 };
 std::vector<EnergyMap> energy_maps();
 
-/// Everything into a folder: maps (SVG, CSV), worst points, README.md. Only what is the same on every machine where `published`.
+/// Everything into a folder: maps (SVG, CSV), worst points, README.md. Only what is the same on every machine where
+/// `published`.
 void write_brdf_stability(const std::filesystem::path& folder, bool published = false);
 
 /// A `gonio eval` line that evaluates this point again.

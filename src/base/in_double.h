@@ -5,8 +5,9 @@
 
 namespace gonio {
 
-/// f(x...) with float lanes widened to two halves of double lanes (f is a template over its number type); any other number type as it
-/// is. For the steep parts of a formula that float's rounding alone would spoil: half the speed of double lanes, no more.
+/// f(x...) with float lanes widened to two halves of double lanes (f is a template over its number type); any other
+/// number type as it is. For the steep parts of a formula that float's rounding alone would spoil: half the speed of
+/// double lanes, no more.
 template <class F, class A, class... X>
 xsimd::batch<float, A> in_double(const F& f, const xsimd::batch<float, A>& first, const X&... rest) {
   using Float = xsimd::batch<float, A>;

@@ -1,10 +1,9 @@
-// Every model and variant over its whole documented box against 50 digits given exactly the numbers that each path received:
-// the bars of assess/brdf_error.h. The traps that published code falls into, by name
-// (Smith's forms apart: tests/surface/surface_test.cpp).
-#include "assess/brdf_error.h"
-
+// Every model and variant over its whole documented box against 50 digits given exactly the numbers that each path
+// received: the bars of assess/brdf_error.h. The traps that published code falls into, by name (Smith's forms apart:
+// tests/surface/surface_test.cpp).
 #include <fmt/format.h>
 
+#include "assess/brdf_error.h"
 #include "catch.h"
 #include "reference/reference.h"
 
@@ -16,9 +15,9 @@ std::string worst_of(const CaseError& found) {
   std::string text;
   for (const PointError& one : found.worst) {
     const BrdfPoint& at = one.point;
-    text += fmt::format("\n  {} for {}, off by {}: {} i ({}, {}, {}) o ({}, {}, {}) n {} k {} um {}", one.f, one.exact, one.relative,
-                        fmt::join(at.values, " "), at.i.x, at.i.y, at.i.z, at.o.x, at.o.y, at.o.z, at.surface.n, at.surface.k,
-                        at.wavelength_um);
+    text += fmt::format("\n  {} for {}, off by {}: {} i ({}, {}, {}) o ({}, {}, {}) n {} k {} um {}", one.f, one.exact,
+                        one.relative, fmt::join(at.values, " "), at.i.x, at.i.y, at.i.z, at.o.x, at.o.y, at.o.z,
+                        at.surface.n, at.surface.k, at.wavelength_um);
   }
   return text;
 }
@@ -26,8 +25,9 @@ std::string worst_of(const CaseError& found) {
 void check(const CaseError& found) {
   const Precision precision = found.path == "float lanes" ? Precision::single : Precision::twofold;
   const ErrorBar bar = error_bar(found.spec, precision);
-  INFO(found.name << ", " << found.path << ": " << found.largest << ", faint " << found.largest_faint << ", ill-conditioned "
-                  << found.largest_ill << ", reciprocity " << found.reciprocity << worst_of(found));
+  INFO(found.name << ", " << found.path << ": " << found.largest << ", faint " << found.largest_faint
+                  << ", ill-conditioned " << found.largest_ill << ", reciprocity " << found.reciprocity
+                  << worst_of(found));
   CHECK(found.largest <= bar.bright);
   CHECK(found.largest_faint <= bar.faint);
   CHECK(found.largest_ill <= 20 * bar.bright);  // beside the peak, where the input itself fixes no more
@@ -49,7 +49,8 @@ ErrorOptions sweep(std::uint64_t seed, std::size_t sets) {
 /// Unit vector at degrees from the normal, rounded to the precision.
 UnitVector<double> direction(double theta_deg, double phi_deg, Precision precision) {
   const double phi = phi_deg * kPi<double> / 180, sine = sin_deg(theta_deg);
-  return {rounded(sine * std::cos(phi), precision), rounded(sine * std::sin(phi), precision), rounded(cos_deg(theta_deg), precision)};
+  return {rounded(sine * std::cos(phi), precision), rounded(sine * std::sin(phi), precision),
+          rounded(cos_deg(theta_deg), precision)};
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ TEST_CASE("Every model holds its error bars over its box, more points", "[brdf][
   for (const CaseError& found : brdf_errors(sweep(2, 8))) check(found);
 }
 
-TEST_CASE("Traps: exact normal, i = o, exact mirror and 89.9999 degrees at both ends of every box", "[brdf][accuracy]") {
+TEST_CASE("Traps: exact normal, i = o, exact mirror and 89.9999 degrees at both ends of every box",
+          "[brdf][accuracy]") {
   const Interface<double> metal{0.96, 6.7}, glass{1.5, 0.0};
   for (const ModelSpec& spec : brdf_cases()) {
     if (spec.retro && spec.info().needs_wavelength) continue;
@@ -75,18 +77,23 @@ TEST_CASE("Traps: exact normal, i = o, exact mirror and 89.9999 degrees at both 
         const bool rational_d = spec.variant() == "schlick-d" || spec.variant() == "schlick";
         for (const ParameterInfo& p : spec.info().parameters) {
           const double edge = end == 0 ? p.lo : rational_d && p.name == "m" ? 0.4 : p.hi;
-          point.values.push_back(p.linear && p.name != "a" ? 1.0 : double(float(edge)) < p.lo ? std::nextafter(float(edge), 1e9f) : rounded(edge, precision));
+          point.values.push_back(p.linear && p.name != "a"    ? 1.0
+                                 : double(float(edge)) < p.lo ? std::nextafter(float(edge), 1e9f)
+                                                              : rounded(edge, precision));
         }
-        for (const auto& [ti, to, phi] : {std::array{0.0, 0.0, 0.0}, std::array{0.0, 89.9999, 0.0}, std::array{45.0, 45.0, 0.0},
-                                          std::array{45.0, 45.0, 180.0}, std::array{89.9999, 89.9999, 0.0}, std::array{89.9999, 89.9999, 180.0},
-                                          std::array{89.9999, 89.9999, 90.0}, std::array{89.9999, 30.0, 180.0}}) {
+        for (const auto& [ti, to, phi] :
+             {std::array{0.0, 0.0, 0.0}, std::array{0.0, 89.9999, 0.0}, std::array{45.0, 45.0, 0.0},
+              std::array{45.0, 45.0, 180.0}, std::array{89.9999, 89.9999, 0.0}, std::array{89.9999, 89.9999, 180.0},
+              std::array{89.9999, 89.9999, 90.0}, std::array{89.9999, 30.0, 180.0}}) {
           point.i = direction(ti, 20, precision), point.o = direction(to, 20 + phi, precision);
           points.push_back(point);
         }
       }
-      const CaseError found = measure(spec, precision, std::string(name_of(path)), own_evaluator(spec, path), points, reference_values(spec, points));
+      const CaseError found = measure(spec, precision, std::string(name_of(path)), own_evaluator(spec, path), points,
+                                      reference_values(spec, points));
       const ErrorBar bar = error_bar(spec, precision);
-      INFO(found.name << ", " << found.path << ": " << found.largest << ", faint " << found.largest_faint << worst_of(found));
+      INFO(found.name << ", " << found.path << ": " << found.largest << ", faint " << found.largest_faint
+                      << worst_of(found));
       CHECK(found.largest <= bar.bright);
       CHECK(found.largest_faint <= bar.faint);
       CHECK(found.not_finite + found.negative == 0);
@@ -94,8 +101,10 @@ TEST_CASE("Traps: exact normal, i = o, exact mirror and 89.9999 degrees at both 
   }
 }
 
-TEST_CASE("A path that errs is caught: the judge's bars fail for a cosine turned back into a sine", "[brdf][accuracy]") {
-  // tan² from a rounded cos_h, as published code computes it, at alpha = 1e-3 in double: PHYSICS says 1e-8 at alpha 1e-4.
+TEST_CASE("A path that errs is caught: the judge's bars fail for a cosine turned back into a sine",
+          "[brdf][accuracy]") {
+  // tan² from a rounded cos_h, as published code computes it, at alpha = 1e-3 in double: PHYSICS says 1e-8 at alpha
+  // 1e-4.
   ModelSpec spec{ModelId::torrance_sparrow};
   set_shadowing(spec, "none");
   PointOptions options;
@@ -106,9 +115,12 @@ TEST_CASE("A path that errs is caught: the judge's bars fail for a cosine turned
     const double alpha = std::sqrt(2.0) * at.values[0];
     const UnitVector<double> h = normalised(at.i.x + at.o.x, at.i.y + at.o.y, at.i.z + at.o.z);
     const double c2 = h.z * h.z, tan2 = (1 - c2) / c2;
-    return at.values[2] * std::exp(-tan2 / (alpha * alpha)) / (kPi<double> * alpha * alpha * c2 * c2) / (4 * at.i.z * at.o.z);
+    return at.values[2] * std::exp(-tan2 / (alpha * alpha)) / (kPi<double> * alpha * alpha * c2 * c2) /
+           (4 * at.i.z * at.o.z);
   });
   const std::vector<double> exact = reference_values(spec, points);
   CHECK(measure(spec, Precision::twofold, "published", published, points, exact).largest > 1e-10);
-  CHECK(measure(spec, Precision::twofold, "ours", own_evaluator(spec, NumberPath::double_scalar), points, exact).largest < 1e-12);
+  CHECK(
+      measure(spec, Precision::twofold, "ours", own_evaluator(spec, NumberPath::double_scalar), points, exact).largest <
+      1e-12);
 }
