@@ -96,6 +96,16 @@ T fast_log1p(const T& x) {
   }
 }
 
+/// 1 + 2Λ (below) as s·E(x), E in powers of x = 1/s², with x held where E is √x to the last place that counts for S.
+template <class S, class T>
+Ratio<T> smith_fraction(const T& s2) {
+  using std::sqrt;
+  constexpr bool kFloat = std::is_same_v<S, float>;
+  const T held = larger_of(s2, T(S(kFloat ? kSmithLeastFloat : kSmithLeast))), s = sqrt(held), x = T(S(1)) / held;
+  if constexpr (kFloat) return {s * polynomial(x, kSmithOverFloat), polynomial(x, kSmithUnderFloat)};
+  else return {s * polynomial(x, kSmithOver), polynomial(x, kSmithUnder)};
+}
+
 /// The functions proper; numbers with derivatives (base/dual.h, base/jet.h) and 50 digits specialise it.
 template <class T>
 struct Special {
@@ -120,13 +130,11 @@ struct Special {
 
   /// With v = 1/(1 + K·s) = 1 - K/(a + K): exact where s and Λ are large, and its rounding hidden by exp(-a²) where not.
   static T smith_lambda_core(const T& s) { return smith_lambda_core(s, fast_exp(T(T(-1) / square(s)))); }
-  /// Lanes: E in powers of x = a², with x held where E is √x to the last place that counts. Scalars: from Λ, to the last place.
+  /// Lanes: a fraction. Scalars: from Λ, to the last place.
   static Ratio<T> smith_visible(const T& s2) {
     using std::sqrt;
-    if constexpr (!is_lanes_v<T>) return whole(T(T(1) + T(2) * smith_lambda_core(T(sqrt(larger_of(s2, T(1e-30)))))));
-    const T held = larger_of(s2, T(kFloat ? kSmithLeastFloat : kSmithLeast)), s = sqrt(held), x = T(1) / held;
-    if constexpr (kFloat) return {s * polynomial(x, kSmithOverFloat), polynomial(x, kSmithUnderFloat)};
-    else return {s * polynomial(x, kSmithOver), polynomial(x, kSmithUnder)};
+    if constexpr (is_lanes_v<T>) return smith_fraction<scalar_t<T>>(s2);
+    else return whole(T(T(1) + T(2) * smith_lambda_core(T(sqrt(larger_of(s2, T(1e-30)))))));
   }
 
   static T smith_lambda_core(const T& s, const T& exp_minus_a2) {
