@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -18,6 +19,9 @@ struct BlinnPhongNormalised {
   static constexpr bool kFacets = false, kDiffracts = false;
   T n;
   BlinnPhongScale scale = BlinnPhongScale::projected;
+
+  /// D ∝ cos^(n-1): one cosine wider than the lobe, whose weight would grow as 1/cos θ_h.
+  FacetSampler<T> sampler() const { return {T(1), T(1), {SlopeKind::power, T(0.5) * (n + T(1))}}; }
 
   template <class G>
   T shape(const Directions<G>& w) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "base/two_terms.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -22,6 +23,8 @@ struct Lafortune {
   static constexpr bool kFacets = false, kDiffracts = false;
   T c_x, c_y, c_z, n;
   LafortuneForm form = LafortuneForm::as_published;
+
+  AxisSampler<T> sampler() const { return {c_x, c_y, c_z, n}; }
 
   template <class G>
   T shape(const Directions<G>& w) const {

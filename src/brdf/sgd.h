@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -35,6 +36,11 @@ struct ShiftedGamma {
     const T steep = exp(smaller_of(T(k * log(ratio)), T(4)));
     return select(shadowed, larger_of(T(T(1) - lambda * expm1(smaller_of(steep, T(50)))), T(0)), T(1));
   }
+  FacetSampler<T> sampler() const {
+    using std::sqrt;
+    return {sqrt(alpha), sqrt(alpha), {SlopeKind::shifted_gamma, alpha, p}};
+  }
+
   template <class G>
   T shape(const Directions<G>& w) const {
     using std::exp, std::log, std::log1p;

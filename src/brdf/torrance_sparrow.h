@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/normals.h"
 #include "surface/shadowing.h"
@@ -20,6 +21,11 @@ struct TorranceSparrow {
   Shadowing shadowing = Shadowing::smith_correlated;
   FacetForm form = FacetForm::exact;
   bool schlick_fresnel = false;
+
+  FacetSampler<T> sampler() const {
+    const bool own_masking = form == FacetForm::exact || form == FacetForm::schlick_f || form == FacetForm::schlick_d;
+    return facets_seen(alpha, alpha, SlopeKind::gaussian, own_masking ? shadowing : Shadowing::smith_separable);
+  }
 
   template <class G>
   T shape(const Directions<G>& w) const {

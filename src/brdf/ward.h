@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -19,6 +20,8 @@ struct Ward {
   static constexpr bool kFacets = false, kDiffracts = false;
   T alpha_x, alpha_y;
   WardForm form = WardForm::ward_1992;
+
+  FacetSampler<T> sampler() const { return facets_seen(alpha_x, alpha_y, SlopeKind::gaussian, Shadowing::none); }
 
   template <class G>
   T shape(const Directions<G>& w) const {
