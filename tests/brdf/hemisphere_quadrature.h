@@ -21,17 +21,19 @@ class HemisphereQuadrature {
   /// vectors' slopes `width` is there; and, next to grazing, smaller than half their distance from the meridian of `center`, or
   /// than that lobe is across it: no peak and no ridge is missed.
   template <class G>
-  HemisphereQuadrature(G&& g, const Direction& center, double width, double tolerance, std::size_t most_cells = 60000) {
+  HemisphereQuadrature(G&& g, const Direction& center, double width, double tolerance, std::size_t most_cells = 200000) {
     cells_.push_back({0, 1, 0, kTurn});
     cells_[0].value = gauss(g, cells_[0]);
     for (std::size_t at = 0; at < cells_.size(); ++at) {  // children come later in the list
       const Cell& c = cells_[at];
       const double turn = turn_distance(c, center), z = 1 - 0.5 * (c.q0 + c.q1);
-      if (polar_side(c) > std::max(width * std::max(center.z, 0.02), 0.5 * std::max(polar_distance(c, center), turn))) split(g, at, true);
+      if (std::max(polar_side(c), turn_side(c)) > kLargest) halve(g, at);
+      else if (polar_side(c) > std::max(width * std::max(center.z, 0.02), 0.5 * std::max(polar_distance(c, center), turn))) split(g, at, true);
       else if (turn_side(c) > std::max(width * (z + center.z), 0.5 * turn)) split(g, at, false);
     }
-    for (std::size_t at = 0, n = cells_.size(); at < n; ++at)  // every cell's error from its halves, once
-      if (cells_[at].child < 0) halve(g, at);
+    for (int side = 0; side < 2; ++side)  // every cell's error from its halves, both ways
+      for (std::size_t at = 0, n = cells_.size(); at < n; ++at)
+        if (cells_[at].child < 0) split(g, at, side == 0);
     refine(g, tolerance, most_cells);
   }
 
@@ -60,6 +62,7 @@ class HemisphereQuadrature {
   }
 
  private:
+  static constexpr double kLargest = 0.25;  ///< rad, of any cell
   static constexpr double kTurn = 6.283185307179586476925286766559;
   struct Cell {
     double q0, q1, phi0, phi1;
@@ -92,7 +95,8 @@ class HemisphereQuadrature {
     else a.phi1 = b.phi0 = 0.5 * (parent.phi0 + parent.phi1);
     a.value = gauss(g, a);
     b.value = gauss(g, b);
-    a.error = b.error = 0.5 * std::abs(parent.value - a.value - b.value);
+    // Halves that agree with their whole by chance (a kink along a side) still inherit a part of its error.
+    a.error = b.error = std::max(0.5 * std::abs(parent.value - a.value - b.value), 0.12 * parent.error);
     cells_[at].child = int(cells_.size());
     cells_.push_back(a);
     cells_.push_back(b);
