@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/normals.h"
 #include "surface/shadowing.h"
@@ -15,6 +16,8 @@ struct AnisotropicBeckmann {
   static constexpr bool kFacets = true, kDiffracts = false;
   T alpha_x, alpha_y;
   Shadowing shadowing = Shadowing::smith_correlated;
+
+  FacetSampler<T> sampler() const { return facets_seen(alpha_x, alpha_y, SlopeKind::gaussian, shadowing); }
 
   template <class G>
   Ratio<T> shape_fraction(const Directions<G>& w) const {

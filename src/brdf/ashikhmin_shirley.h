@@ -1,5 +1,6 @@
 #pragma once
 #include "base/scaled_exp.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "optics/fresnel.h"
 
@@ -40,6 +41,11 @@ struct AshikhminShirley {
     const T root = sqrt(f0), m = T(2) * root * (T(1) + root) / (T(1) - f0), contrast = m * (m + T(2));
     const T sum = sqrt(contrast + square(cos_d)) + cos_d, r_s = contrast / square(sum);
     return T(0.5) * square(r_s) * (T(1) + square(T((cos_d * sum - T(1)) / (cos_d * contrast / sum + T(1)))));
+  }
+
+  AshikhminShirleySampler<T> sampler() const {
+    const T diffuse = rd * (T(1) - f0), specular = f0 + T(0.05) * (T(1) - f0);
+    return {n_u, n_v, smaller_of(T(diffuse / (diffuse + specular)), T(0.9))};
   }
 
   template <class G>

@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "brdf/poisson_variants.h"
 #include "surface/normals.h"
@@ -36,6 +37,8 @@ struct BeckmannKirchhoff {
   T phase_variance(const Directions<G>& w, const T& wavelength_um) const {
     return larger_of(square(T(2) * kPi<T> * sigma_um * (T(w.cos_i) + T(w.cos_o)) / wavelength_um), T(1e-30));
   }
+
+  KirchhoffSampler<T> sampler(const T& wavelength_um) const { return {sigma_um, correlation_um, wavelength_um}; }
 
   template <class G>
   T shape(const Directions<G>& w, const T& wavelength_um) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "base/scaled_exp.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -19,6 +20,9 @@ struct BlinnPhongNormalised {
   static constexpr bool kFacets = false, kDiffracts = false;
   T n;
   BlinnPhongScale scale = BlinnPhongScale::projected;
+
+  /// D ∝ cos^(n-1): one cosine wider than the lobe, whose weight would grow as 1/cos θ_h.
+  FacetSampler<T> sampler() const { return {T(1), T(1), {SlopeKind::power, T(0.5) * (n + T(1))}}; }
 
   template <class G>
   T shape(const Directions<G>& w) const {

@@ -23,6 +23,8 @@ struct TrowbridgeReitz {
   static constexpr bool kFacets = true, kDiffracts = false;
   T e;
 
+  FacetSampler<T> sampler() const { return facets_seen(e, e, SlopeKind::ggx, Shadowing::none); }
+
   template <class G>
   T shape(const Directions<G>& w) const {
     return square(e) * Ggx<T>{e, e, Shadowing::none}.shape(w);
@@ -91,6 +93,12 @@ struct Blinn {
     return T(1) / (T(4) * kPi<T> * square(parameter));
   }
 
+  FacetSampler<T> sampler() const {
+    if (density == BlinnDensity::spheroid) return facets_seen(parameter, parameter, SlopeKind::ggx, Shadowing::v_cavity);
+    if (density == BlinnDensity::gaussian_angle) return {T(1), T(1), {SlopeKind::angle_gaussian, parameter}};
+    return {T(1), T(1), {SlopeKind::power, T(0.5) * (parameter + T(2))}};
+  }
+
   template <class G>
   T shape(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o);
@@ -112,6 +120,12 @@ struct CookTorrance {
   T alpha;
   CookDensity density = CookDensity::beckmann;
   T alpha_2 = T(1), weight_2 = T(0);
+
+  FacetSampler<T> sampler() const {
+    const T widest = select(weight_2 > T(0), larger_of(alpha, alpha_2), alpha);
+    if (density == CookDensity::beckmann) return facets_seen(widest, widest, SlopeKind::gaussian, Shadowing::v_cavity);
+    return {T(1), T(1), {SlopeKind::angle_gaussian, T(1) / alpha}};
+  }
 
   template <class G>
   T shape(const Directions<G>& w) const {
@@ -141,6 +155,12 @@ struct PhongHighlight {
   static constexpr bool kFacets = false, kDiffracts = false;
   T n;
   Highlight highlight = Highlight::mirror_direction;
+
+  /// About the half vector one cosine wider than the lobe (blinn_phong_normalised.h).
+  LobeSampler<T> sampler() const {
+    if (highlight == Highlight::mirror_direction) return AxisSampler<T>{T(1), T(1), T(1), n};
+    return FacetSampler<T>{T(1), T(1), {SlopeKind::power, T(0.5) * (n + T(1))}};
+  }
 
   template <class G>
   T shape(const Directions<G>& w) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/shadowing.h"
 
@@ -24,6 +25,8 @@ struct Ggx {
     using std::sqrt;
     return T(0.5) * s / (T(1) + sqrt(T(1) + s));
   }
+
+  FacetSampler<T> sampler() const { return facets_seen(alpha_x, alpha_y, SlopeKind::ggx, shadowing); }
 
   template <class G>
   Ratio<T> shape_fraction(const Directions<G>& w) const {

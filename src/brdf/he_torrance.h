@@ -39,6 +39,8 @@ struct HeTorrance {
     return (T(1) - T(0.5) * hidden) / (T(1) + lambda);
   }
 
+  KirchhoffSampler<T> sampler(const T& wavelength_um) const { return {sigma0_um, correlation_um, wavelength_um}; }
+
   template <class G>
   T shape(const Directions<G>& w, const T& wavelength_um) const {
     const T tan2_i(w.tan2_i), tan2_o(w.tan2_o);

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/scaled_exp.h"
 #include "base/two_terms.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -23,6 +24,8 @@ struct Lafortune {
   static constexpr bool kFacets = false, kDiffracts = false;
   T c_x, c_y, c_z, n;
   LafortuneForm form = LafortuneForm::as_published;
+
+  AxisSampler<T> sampler() const { return {c_x, c_y, c_z, n}; }
 
   template <class G>
   T shape(const Directions<G>& w) const {

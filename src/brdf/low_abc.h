@@ -1,5 +1,6 @@
 #pragma once
 #include "base/scaled_exp.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/shadowing.h"
 
@@ -17,6 +18,8 @@ template <class T>
 struct LowSmooth {
   static constexpr bool kFacets = true, kDiffracts = false;
   T a, b, c;
+
+  DiscSampler<T> sampler() const { return {b, c, DiscKind::abc}; }
 
   template <class G>
   T shape(const Directions<G>& w) const {
@@ -37,6 +40,8 @@ struct LowMicrofacet {
   static constexpr bool kFacets = true, kDiffracts = false;
   T a, b, c;
   LowScale scale = LowScale::tables;
+
+  FacetSampler<T> sampler() const { return {T(1), T(1), {SlopeKind::abc, b, c}}; }
 
   template <class G>
   T shape(const Directions<G>& w) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/special.h"
 #include "base/two_terms.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -19,6 +20,8 @@ struct OrenNayar {
   static constexpr bool kFacets = false, kDiffracts = false;
   T sigma_rad;
   OrenNayarForm form = OrenNayarForm::full;
+
+  CosineSampler<T> sampler() const { return {}; }
 
   template <class G>
   T shape(const Directions<G>& w) const {

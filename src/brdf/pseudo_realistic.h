@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/normals.h"
 #include "surface/shadowing.h"
@@ -14,6 +15,11 @@ template <class T>
 struct PseudoRealistic {
   static constexpr bool kFacets = true, kDiffracts = false;
   T slope_rms;
+
+  FacetSampler<T> sampler() const {
+    const T alpha = kSqrt2<T> * slope_rms;
+    return facets_seen(alpha, alpha, SlopeKind::gaussian, Shadowing::v_cavity);
+  }
 
   template <class G>
   T shape(const Directions<G>& w) const {

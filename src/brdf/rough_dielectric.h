@@ -1,6 +1,7 @@
 #pragma once
 #include "base/two_terms.h"
 #include "base/unit_vector.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/normals.h"
 #include "surface/shadowing.h"
@@ -73,6 +74,11 @@ struct RoughDielectric {
     using std::sqrt;
     if (normals == DielectricNormals::beckmann) return T(1) / (T(1) + smith_lambda(tan2, alpha));
     return T(2) / (T(1) + sqrt(T(1) + square(alpha) * tan2));
+  }
+
+  FacetSampler<T> sampler() const {
+    const SlopeKind kind = normals == DielectricNormals::ggx ? SlopeKind::ggx : SlopeKind::gaussian;
+    return facets_seen(alpha, alpha, kind, Shadowing::smith_separable);
   }
 
   /// Reflection, without R.

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/in_double.h"
 #include "base/special.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -45,6 +46,11 @@ struct ShiftedGamma {
                                  const N& lambda) { return fitted_g1(x, y, z, theta0, theta_c, k, lambda); },
                      x, y, z, theta0, theta_c, k, lambda);
   }
+  FacetSampler<T> sampler() const {
+    using std::sqrt;
+    return {sqrt(alpha), sqrt(alpha), {SlopeKind::shifted_gamma, alpha, p}};
+  }
+
   template <class G>
   T shape(const Directions<G>& w) const {
     using std::exp, std::log, std::log1p;

@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "optics/interface.h"
 #include "surface/normals.h"
@@ -29,6 +30,8 @@ struct Stogryn {
     const Polarised<T> r = surface.polarised(cos_d);
     return form == StogrynForm::in_plane_s ? r.s : r.p;
   }
+
+  FacetSampler<T> sampler() const { return facets_seen(alpha, alpha, SlopeKind::gaussian, Shadowing::none); }
 
   template <class G>
   T shape(const Directions<G>& w) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/normals.h"
 #include "surface/shadowing.h"
@@ -22,6 +23,11 @@ struct TorranceSparrow {
   Shadowing shadowing = Shadowing::smith_correlated;
   FacetForm form = FacetForm::exact;
   bool schlick_fresnel = false;
+
+  FacetSampler<T> sampler() const {
+    const bool other_masking = form == FacetForm::schlick_g || form == FacetForm::schlick || form == FacetForm::walter_g;
+    return facets_seen(alpha, alpha, SlopeKind::gaussian, other_masking ? Shadowing::smith_separable : shadowing);
+  }
 
   template <class G>
   Ratio<T> shape_fraction(const Directions<G>& w) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "base/scaled_exp.h"
+#include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 
 namespace gonio {
@@ -20,6 +21,8 @@ struct Ward {
   static constexpr bool kFacets = false, kDiffracts = false;
   T alpha_x, alpha_y;
   WardForm form = WardForm::ward_1992;
+
+  FacetSampler<T> sampler() const { return facets_seen(alpha_x, alpha_y, SlopeKind::gaussian, Shadowing::none); }
 
   template <class G>
   T shape(const Directions<G>& w) const {

@@ -24,9 +24,9 @@ struct AtAngle {
   double smallest_kd = 1e9;  ///< min of (1 - ks(E + coherent + error))/ρd
 };
 
-AtAngle look_at(const Brdf<double>& brdf, const SurfaceSamples& samples, double theta_deg, double tolerance) {
+AtAngle look_along(const Brdf<double>& brdf, const SurfaceSamples& samples, double theta_deg, double phi_deg, double tolerance) {
   const SpectralSurface& surface = samples.surface;
-  const std::vector<Estimate> e = directional_reflectance(brdf.lobe, theta_deg, surface, tolerance);
+  const std::vector<Estimate> e = directional_reflectance(brdf.lobe, theta_deg, surface, tolerance, phi_deg);
   Brdf<double> unit = brdf;
   unit.ks = 1;
   AtAngle result;
@@ -34,13 +34,27 @@ AtAngle look_at(const Brdf<double>& brdf, const SurfaceSamples& samples, double 
     const double rho_d = brdf.diffuse_times_r0() ? surface.interfaces[i].r0() : 1;
     const double coherent = coherent_energy(unit, cos_deg(theta_deg), surface.interfaces[i], surface.wavelength_um[i]);
     const double reflected = e[i].value + coherent, bound = reflected + e[i].error;
-    const LimitRow row{theta_deg, samples.wavelength_nm[i], e[i], coherent, brdf.kd * rho_d + brdf.ks * reflected};
+    const LimitRow row{theta_deg, samples.wavelength_nm[i], e[i], coherent, brdf.kd * rho_d + brdf.ks * reflected, phi_deg};
     if (i == 0 || bound > result.largest_e) result.row = row;
     if (i == 0 || row.total > result.worst_total.total) result.worst_total = row;
     result.largest_e = std::max(result.largest_e, bound);
     if (rho_d > 0) result.smallest_kd = std::min(result.smallest_kd, (1 - brdf.ks * bound) / rho_d);
   }
   return result;
+}
+
+/// The worst of the light's azimuths where the lobe looks at the grain, 15° apart over the quarter that holds them all.
+AtAngle look_at(const Brdf<double>& brdf, const SurfaceSamples& samples, double theta_deg, double tolerance) {
+  AtAngle worst = look_along(brdf, samples, theta_deg, 0, tolerance);
+  if (!looks_at_the_grain(brdf.lobe)) return worst;
+  for (int phi_deg = 15; phi_deg <= 90; phi_deg += 15) {
+    const AtAngle one = look_along(brdf, samples, theta_deg, phi_deg, tolerance);
+    if (one.largest_e > worst.largest_e) worst.row = one.row;
+    if (one.worst_total.total > worst.worst_total.total) worst.worst_total = one.worst_total;
+    worst.largest_e = std::max(worst.largest_e, one.largest_e);
+    worst.smallest_kd = std::min(worst.smallest_kd, one.smallest_kd);
+  }
+  return worst;
 }
 
 void take(Limits& limits, const AtAngle& at, double& largest_e, double& smallest_kd) {

@@ -17,6 +17,7 @@ struct LimitRow {
   Estimate e;           ///< incoherent lobe, ks = 1
   double coherent = 0;  ///< energy of the delta, ks = 1
   double total = 0;     ///< kd·ρd + ks·(E + coherent) of the material as given
+  double phi_deg = 0;   ///< the light's azimuth from the grain, the worst one, where the lobe looks at it
 };
 
 /// Energy conservation, Maillot 1996 eq. (43): kd·ρd + ks·E <= 1 for every incidence and wavelength.

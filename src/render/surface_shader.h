@@ -10,12 +10,6 @@
 
 namespace gonio {
 
-/// How directions are drawn at a surface: a mixture of the coherent delta, a cosine lobe and the model's half-vector
-/// lobe.
-struct SamplingShares {
-  double delta, cosine;  ///< of all samples; of those that are no delta
-};
-
 /// A BRDF at the scene's wavelengths. i towards the light, o towards the eye, in the surface's frame. The geometry is
 /// reduced once, in double; the wavelengths follow side by side.
 template <std::size_t N>
@@ -50,7 +44,7 @@ class SurfaceShader {
     mean_r0_ = mean(r0);
     longest_um_ = um.back();
     wavelengths_um_ = std::move(um);
-    alpha_ = sampling_alpha(brdf_.lobe, longest_um_);
+    mixture_ = lobe_mixture(brdf_, mean_r0_, longest_um_);
   }
 
   /// f·factor, without the delta; 0 below the horizon.
@@ -58,7 +52,7 @@ class SurfaceShader {
     if (i.z <= 0 || o.z <= 0) return Lanes(0.0F);
     Lanes f = diffuse_;
     if (has_lobe()) {
-      const Directions<double> w = reduce(i.x, i.y, i.z, o.x, o.y, o.z);
+      const Directions<double> given = reduce(i.x, i.y, i.z, o.x, o.y, o.z), w = brdf_.retro ? turned_back(given) : given;
       const FloatLanes cos_d(static_cast<float>(w.cos_d));
       f *= static_cast<float>(factor);
       if (diffracts()) {
@@ -77,32 +71,25 @@ class SurfaceShader {
 
   /// Density of sample()'s directions that are no delta, per steradian.
   double pdf(const LocalDirection& i, const LocalDirection& o) const {
-    const SamplingShares shares = shares_at(o);
-    return (1 - shares.delta) * density(i, o, shares.cosine);
+    if (!(i.z > 0) || !(o.z > 0)) return 0;
+    return (1 - delta_share(o.z)) * mixture_.pdf(i, o);
   }
 
-  /// Empty when the drawn direction lies below the horizon (it carries nothing) or the surface is black.
+  /// A mixture of the coherent delta, a cosine lobe and the lobe's own sampler. Empty when the drawn direction lies below the
+  /// horizon (it carries nothing) or the surface is black.
   std::optional<Sample> sample(const LocalDirection& o, Random& random) const {
-    const SamplingShares shares = shares_at(o);
-    const double choice = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
-    if (choice < shares.delta) return Sample{{-o.x, -o.y, o.z}, coherent(o.z, 1 / shares.delta), 0, true};
-    LocalDirection i;
-    if (choice < shares.delta + (1 - shares.delta) * shares.cosine) {
-      i = sample_cosine(u1, u2).direction;
-    } else {
-      const auto drawn = sample_visible_normal(alpha_, o, random.uniform(), u1, u2);
-      if (!drawn) return {};
-      i = drawn->direction;
+    const double share = delta_share(o.z), choice = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
+    if (choice < share) {
+      const LocalDirection i = brdf_.retro ? o : LocalDirection{-o.x, -o.y, o.z};
+      return Sample{i, coherent(o.z, 1 / share), 0, true};
     }
-    const double pdf_per_sr = (1 - shares.delta) * density(i, o, shares.cosine);
-    if (!(i.z > 0) || !(pdf_per_sr > 0)) return {};
-    return Sample{i, evaluate(i, o, i.z / pdf_per_sr), pdf_per_sr, false};
+    const auto drawn = mixture_.sample(o, (choice - share) / (1 - share), u1, u2);
+    const double pdf_per_sr = (1 - share) * drawn.pdf_per_sr;
+    if (!(pdf_per_sr > 0)) return {};
+    return Sample{drawn.direction, evaluate(drawn.direction, o, drawn.direction.z / pdf_per_sr), pdf_per_sr, false};
   }
 
  private:
-  /// Where the lobe's tails are wider than its sampling density (diffraction, GGX, cosine powers), this share of cosine samples bounds the
-  /// weights.
-  static constexpr double kDefensiveShare = 0.2;
   /// A coherent share below this is lost in the rounding of float radiances.
   static constexpr double kLeastCoherent = 1e-9;
 
@@ -116,22 +103,14 @@ class SurfaceShader {
     return sum / static_cast<double>(values.size());
   }
 
-  double density(const LocalDirection& i, const LocalDirection& o, double cosine_share) const {
-    const double lobe = cosine_share < 1 ? visible_normal_pdf(alpha_, i, o) : 0;
-    return cosine_share * cosine_pdf(i) + (1 - cosine_share) * lobe;
-  }
-
-  /// In proportion to the energies, diffuse against lobe, each at least a tenth so that neither is starved.
-  SamplingShares shares_at(const LocalDirection& o) const {
-    if (!has_lobe()) return {0, 1};
+  /// Share of the samples that are the coherent delta, in proportion to its energy, but neither it nor the rest starved.
+  double delta_share(double cos_o) const {
+    if (!has_lobe() || !has_delta(brdf_.lobe)) return 0;
+    const double coherent_share = mean_coherent_share(cos_o);
+    if (coherent_share < kLeastCoherent) return 0;
     const double diffuse = brdf_.kd * (brdf_.diffuse_times_r0() ? mean_r0_ : 1), lobe = brdf_.ks * mean_r0_;
-    double cosine = diffuse > 0 ? std::clamp(diffuse / (diffuse + lobe), 0.1, 0.9) : 0;
-    if (tails_fit_the_sampler(brdf_.lobe)) return {0, cosine};
-    cosine = std::max(cosine, kDefensiveShare);
-    if (!has_delta(brdf_.lobe)) return {0, cosine};
-    const double coherent_share = mean_coherent_share(o.z);
-    if (coherent_share < kLeastCoherent) return {0, cosine};
-    return {std::clamp(lobe * coherent_share / (diffuse + lobe), 0.05, 0.9), cosine};
+    if (diffuse == 0 && std::holds_alternative<Mirror>(brdf_.lobe)) return 1;
+    return std::clamp(lobe * coherent_share / (diffuse + lobe), 0.05, 0.9);
   }
 
   double mean_coherent_share(double cos_o) const {
@@ -153,7 +132,8 @@ class SurfaceShader {
   std::vector<Interface<FloatLanes>> surface_;  ///< one a batch of wavelengths
   Lanes wavelength_um_, diffuse_;               ///< diffuse_ = kd·ρd/π
   std::vector<double> wavelengths_um_;
-  double mean_r0_ = 1, longest_um_ = 1, alpha_ = 1;
+  LobeMixture<double> mixture_;
+  double mean_r0_ = 1, longest_um_ = 1;
 };
 
 }  // namespace gonio

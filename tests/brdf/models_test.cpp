@@ -8,7 +8,6 @@
 #include "base/jet.h"
 #include "brdf/brdf.h"
 #include "brdf/lanes.h"
-#include "brdf/sampling.h"
 #include "catch.h"
 
 using namespace gonio;
@@ -131,49 +130,6 @@ TEST_CASE("Known values", "[brdf]") {
   // Torrance-Sparrow at the normal: F/(4 π α²), α² = 2m².
   CHECK(evaluate(make_brdf<double>({ModelId::torrance_sparrow}, values), directions_from_deg(0.0, 0.0, 0.0), kMetal, kUm) ==
         Approx(0.3 / kPi<double> + 0.7 * r0 / (4 * kPi<double> * 0.08)).epsilon(1e-14));
-}
-
-TEST_CASE("The sampled density integrates to one minus the share below the horizon, and matches a histogram", "[brdf]") {
-  std::mt19937_64 random(17);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  for (const double alpha : {0.1, 0.6})
-    for (const double theta_o : {0.0, 60.0}) {
-      const LocalDirection o{sin_deg(theta_o), 0, cos_deg(theta_o)};
-      const int rings = 8, sectors = 8, samples = 200000;
-      std::vector<double> counts(std::size_t(rings * sectors)), expected(counts.size());
-      double above = 0;
-      for (int i = 0; i < samples; ++i) {
-        const auto s = sample_visible_normal(alpha, o, uniform(random), uniform(random), uniform(random));
-        if (!s) continue;
-        ++above;
-        REQUIRE(s->pdf_per_sr == Approx(visible_normal_pdf(alpha, s->direction, o)).epsilon(1e-9));
-        const double phi = std::atan2(s->direction.y, s->direction.x) + kPi<double>;
-        const int ring = std::min(rings - 1, int((1 - s->direction.z) * rings)), sector = std::min(sectors - 1, int(phi / (2 * kPi<double>)*sectors));
-        ++counts[std::size_t(ring * sectors + sector)];
-      }
-      const int fine = 60;
-      double total = 0;
-      for (int ring = 0; ring < rings; ++ring)
-        for (int sector = 0; sector < sectors; ++sector)
-          for (int a = 0; a < fine; ++a)
-            for (int b = 0; b < fine; ++b) {
-              const double z = 1 - (ring + (a + 0.5) / fine) / rings, phi = (sector + (b + 0.5) / fine) / sectors * 2 * kPi<double> - kPi<double>;
-              const double r = std::sqrt(1 - z * z);
-              const double p = visible_normal_pdf(alpha, {r * std::cos(phi), r * std::sin(phi), z}, o) * 2 * kPi<double> / (rings * sectors * fine * fine);
-              expected[std::size_t(ring * sectors + sector)] += p * samples;
-              total += p;
-            }
-      CHECK(total == Approx(above / samples).margin(5 * std::sqrt(0.25 / samples) + 2e-3));
-      double chi2 = 0;
-      int cells = 0;
-      for (std::size_t i = 0; i < counts.size(); ++i)
-        if (expected[i] > 50) {
-          chi2 += std::pow(counts[i] - expected[i], 2) / expected[i];
-          ++cells;
-        }
-      INFO("alpha " << alpha << ", theta_o " << theta_o << ": chi2 " << chi2 << " on " << cells << " cells");
-      CHECK(chi2 < cells + 5 * std::sqrt(2.0 * cells));  // a false alarm about once in 1e5
-    }
 }
 
 TEST_CASE("What a user may get wrong is refused", "[brdf]") {
