@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
 #include "brdf/sampling.h"
 #include "energy/adaptive.h"
 #include "energy/lobe_spectrum.h"
