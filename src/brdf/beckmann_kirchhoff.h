@@ -23,7 +23,8 @@ enum class KirchhoffForm { series, rough_limit, smooth_limit, nieto_vesperinas_1
 /// nieto_vesperinas_1982: the F with which Mendez & O'Donnell 1987 compare (Maillot 1996 §I.2.5.2), cos_o for cos_i in its
 /// denominator, F = (1 + cos_i·cos_o - sin_i·sin_o·cos δ)/(cos_o·(cos_i + cos_o)). (20a) has cos²_i·F² and f = (power per
 /// steradian and area)/(E·cos_o), so with the rest kept f is (cos_i/cos_o)² times the thesis's: equal in the mirror direction
-/// (and so is the coherent part), not reciprocal (f(i→o)/f(o→i) = (cos_i/cos_o)⁴), cos_o^-3 next to the horizon.
+/// (and so is the coherent part), not reciprocal (f(i→o)/f(o→i) = (cos_i/cos_o)⁴), cos_o^-3 next to the horizon:
+/// E is infinite, and refused.
 /// Where F divides the amplitude of a plane wave (Nieto-Vesperinas, Opt. Acta 29, 961), whose radiant intensity has cos²_o in
 /// place of (20a)'s cos²_i, the two cancel and f is `series` to the letter.
 template <class T>
