@@ -27,7 +27,7 @@ T poisson_profile_sum(const T& g, const T& b) {
       sum += next;
       if (!any(inside && value_of(next) > cut * value_of(sum))) break;
     }
-  return sum;
+  return sum * T(0x1p-60);  // the terms are 2^60 times as large
 }
 
 /// Diffraction by a Gaussian surface that is rough along one direction x only, in the plane of incidence along x:
@@ -42,7 +42,7 @@ T poisson_profile_sum(const T& g, const T& b) {
 /// Symbols: sigma_um height rms, correlation_um T, µm; θ_o in degrees, positive on the mirror side, past 90° the theory
 /// goes on (it has no horizon) as long as cos_i + cos_o > 0. Limits: g → 0 at the normal, T ≫ λ: energy 1 - exp(-g); g
 /// → ∞: one-dimensional Gaussian slopes of rms √2·σ/T seen by geometrical optics. Validity and flaws as
-/// beckmann_kirchhoff.h. Pinned by tests/brdf/kirchhoff_profile_test.cpp.
+/// beckmann_kirchhoff.h. Pinned by tests/brdf/kirchhoff_variants_test.cpp.
 template <class T>
 struct KirchhoffProfile {
   T sigma_um, correlation_um;
