@@ -23,7 +23,7 @@ std::vector<ModelInfo> thesis_models() {
       {ModelId::torrance_sparrow, "torrance-sparrow", "Torrance-Sparrow with normalised Beckmann density",
        "f = kd/pi + ks D G F(cos_d)/(4 cos_i cos_o)", "Torrance & Sparrow 1967, doi:10.1364/JOSA.57.001105",
        {kSlope, kKd, kKs}, {"v-cavity", "smith-separable", "smith-correlated", "smith-1967", "none"},
-       {"exact", "schlick-f", "schlick-d", "schlick-g", "schlick", "walter-g", "erfcx", "erfc"}, true, true, true, false},
+       {"exact", "schlick-f", "schlick-d", "schlick-g", "schlick", "walter-g", "erfcx", "erfc", "tabulated"}, true, true, true, false},
       {ModelId::beckmann_kirchhoff, "beckmann-kirchhoff", "Beckmann-Kirchhoff diffraction (18a), incoherent part + coherent energy",
        "f = kd/pi + ks R(cos_d) pi T^2 F'^2/(lambda^2 cos_i cos_o) sum_j Pois(j;g)/j exp(-v_xy^2 T^2/(4j)); "
        "nieto-vesperinas-1982: times (cos_i/cos_o)^2",

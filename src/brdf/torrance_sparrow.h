@@ -2,15 +2,15 @@
 #include "brdf/direction_samplers.h"
 #include "brdf/directions.h"
 #include "surface/normals.h"
-#include "surface/shadowing.h"
+#include "surface/smith_table.h"
 
 namespace gonio {
 
 /// Exact (1 + 2Λ as a fraction of polynomials: base/special.h), or with other functions in place of parts: Schlick 1992's F, D, G
 /// or all three; Walter et al. 2007's G; Λ from erfcx, to the last place; Λ as Smith prints it, exp and erfc, which cancel where
-/// Λ is small. A rational G1 stands for both directions apart (separable), whatever shadowing is named; erfcx and erfc for
-/// the Smith form that is named.
-enum class FacetForm { exact, schlick_f, schlick_d, schlick_g, schlick, walter_g, erfcx, erfc };
+/// Λ is small; G1 from a table (surface/smith_table.h). A rational G1 stands for both directions apart (separable), whatever shadowing is named; erfcx and erfc for
+/// the Smith form that is named, and so the table.
+enum class FacetForm { exact, schlick_f, schlick_d, schlick_g, schlick, walter_g, erfcx, erfc, tabulated };
 
 /// Torrance & Sparrow 1967 (J. Opt. Soc. Am. 57, 1105) with a normalised Beckmann density of normals:
 ///   f = D(h)·G(i, o)·F(cos_d)/(4·cos_i·cos_o);  shape() is the lobe without F, shape_fraction() before its division.
@@ -48,11 +48,15 @@ struct TorranceSparrow {
       case FacetForm::schlick: return whole(T(schlick_g1(T(w.cos_i), alpha) * schlick_g1(T(w.cos_o), alpha)));
       case FacetForm::walter_g: return whole(T(walter_g1(T(w.tan2_i), alpha) * walter_g1(T(w.tan2_o), alpha)));
       case FacetForm::erfcx:
-      case FacetForm::erfc: return from_lambda(lambda(T(w.tan2_i)), lambda(T(w.tan2_o)), w);
+      case FacetForm::erfc:
+      case FacetForm::tabulated: return from_lambda(lambda(T(w.tan2_i)), lambda(T(w.tan2_o)), w);
       default: return shadowing_masking<T>(shadowing, w, alpha);
     }
   }
-  T lambda(const T& tan2) const { return form == FacetForm::erfc ? smith_lambda_as_printed(tan2, alpha) : smith_lambda(tan2, alpha); }
+  T lambda(const T& tan2) const {
+    if (form == FacetForm::tabulated) return T(1) / smith_g1_tabulated(tan2, alpha) - T(1);
+    return form == FacetForm::erfc ? smith_lambda_as_printed(tan2, alpha) : smith_lambda(tan2, alpha);
+  }
   template <class G>
   Ratio<T> from_lambda(const T& i, const T& o, const Directions<G>& w) const {
     if (shadowing == Shadowing::smith_correlated) return {T(1), T(1) + i + o};

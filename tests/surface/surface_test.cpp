@@ -7,6 +7,7 @@
 #include "oracles/fifty_digits.h"
 #include "surface/normals.h"
 #include "surface/shadowing.h"
+#include "surface/smith_table.h"
 
 using namespace gonio;
 using Rule = boost::math::quadrature::gauss_kronrod<double, 61>;
@@ -75,4 +76,17 @@ TEST_CASE("Shadowings have names; an unknown one is refused", "[surface]") {
   for (const auto* name : {"none", "v-cavity", "smith-separable", "smith-correlated", "smith-1967"})
     CHECK(name_of(shadowing_from(name)) == name);
   CHECK_THROWS_AS(shadowing_from("smith"), InputError);
+}
+
+TEST_CASE("Smith's G1 from a table loses what it says, grazing and the normal included", "[surface]") {
+  double worst = 0;
+  for (double s = 1e-4; s < 1e8; s *= 1.013) {
+    const double truth = 1 / (1 + smith_lambda_core(s)), table = smith_g1_tabulated(s * s, 1.0);
+    worst = std::max(worst, std::abs(table / truth - 1));
+    CHECK(std::abs(smith_g1_tabulated(DoubleLanes(s * s), DoubleLanes(1.0)).get(0) / truth - 1) < 5e-8);
+  }
+  INFO("largest relative error " << worst);
+  CHECK(worst < 4e-8);
+  CHECK(worst > 1e-9);  // it is a table
+  CHECK(smith_g1_tabulated(0.0, 0.5) == Approx(1).epsilon(1e-14));
 }
