@@ -1,36 +1,14 @@
 #include "assess/brdf_speed.h"
 
 #include <cmath>
-#include <random>
 
+#include "assess/pair_arrays.h"
 #include "assess/timing.h"
-#include "brdf/batch.h"
 
 namespace gonio {
 namespace {
 
-constexpr std::size_t kPairs = 512;
-
-/// Random pairs of directions, cosines from 0.05, in arrays that lanes load whole.
-template <class S>
-struct PairArrays {
-  std::array<std::vector<S, xsimd::aligned_allocator<S, 64>>, 6> v;
-  std::vector<S, xsimd::aligned_allocator<S, 64>> out = decltype(out)(kPairs);
-
-  explicit PairArrays(std::uint64_t seed = 1) {
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    for (auto& component : v) component.resize(kPairs);
-    for (std::size_t p = 0; p < kPairs; ++p)
-      for (const std::size_t first : {0, 3}) {
-        const double z = 0.05 + 0.95 * uniform(random), phi = 2 * kPi<double> * uniform(random), r = std::sqrt((1 - z) * (1 + z));
-        v[first][p] = S(r * std::cos(phi)), v[first + 1][p] = S(r * std::sin(phi)), v[first + 2][p] = S(z);
-      }
-  }
-  DirectionPairs<S> pairs() const { return {v[0], v[1], v[2], v[3], v[4], v[5]}; }
-  UnitVector<S> i(std::size_t p) const { return {v[0][p], v[1][p], v[2][p]}; }
-  UnitVector<S> o(std::size_t p) const { return {v[3][p], v[4][p], v[5][p]}; }
-};
+constexpr std::size_t kPairs = PairArrays<double>::kPairs;
 
 const Interface<double> kGold{0.21, 3.272};
 constexpr double kUm = 0.55;
@@ -54,10 +32,7 @@ double scalar_ns(const ModelSpec& spec, const std::vector<double>& values) {
   const Brdf<S> brdf = make_brdf<S>(spec, std::vector<S>(values.begin(), values.end()));
   const Interface<S> surface{S(kGold.n), S(kGold.k)};
   const auto run = [&] {
-    for (std::size_t p = 0; p < kPairs; ++p) {
-      const UnitVector<S> i = arrays.i(p), o = arrays.o(p);
-      arrays.out[p] = evaluate(brdf, reduce(i.x, i.y, i.z, o.x, o.y, o.z), surface, S(kUm));
-    }
+    for (std::size_t p = 0; p < kPairs; ++p) arrays.out[p] = evaluate(brdf, arrays.reduced(p), surface, S(kUm));
     keep(arrays.out[0]);
   };
   return least_ns(run, 1, 5) / kPairs;

@@ -18,6 +18,7 @@ struct Counted {
 
   Counted() = default;
   explicit Counted(double x) : value(x) {}
+  explicit operator double() const { return value; }
 
   friend Counted operator+(Counted a, Counted b) { return ++count.add, Counted(a.value + b.value); }
   friend Counted operator-(Counted a, Counted b) { return ++count.add, Counted(a.value - b.value); }

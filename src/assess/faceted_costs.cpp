@@ -1,34 +1,18 @@
 // The loops behind the ratios of torrance-sparrow.
-#include <random>
-
 #include "assess/brdf_speed.h"
+#include "assess/pair_arrays.h"
 #include "assess/timing.h"
 #include "base/dual.h"
 #include "base/jet.h"
-#include "brdf/batch.h"
 
 namespace gonio {
 namespace {
 
-constexpr std::size_t kPairs = 512, kWavelengths = 16;
+constexpr std::size_t kPairs = PairArrays<double>::kPairs, kWavelengths = 16;
 constexpr double kAlpha = 0.3, kN = 0.21, kK = 3.272;
 
 template <class S>
-using Array = std::vector<S, xsimd::aligned_allocator<S, 64>>;
-
-template <class S>
-std::array<Array<S>, 6> random_pairs() {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  std::array<Array<S>, 6> v;
-  for (auto& component : v) component.resize(kPairs);
-  for (std::size_t p = 0; p < kPairs; ++p)
-    for (const std::size_t first : {0, 3}) {
-      const double z = 0.05 + 0.95 * uniform(random), phi = 2 * kPi<double> * uniform(random), r = std::sqrt((1 - z) * (1 + z));
-      v[first][p] = S(r * std::cos(phi)), v[first + 1][p] = S(r * std::sin(phi)), v[first + 2][p] = S(z);
-    }
-  return v;
-}
+using Array = typename PairArrays<S>::template Array<S>;
 
 /// Metals of a spectrum: n and k at 16 wavelengths.
 template <class T>
@@ -40,12 +24,6 @@ std::array<Interface<T>, kWavelengths> metals() {
 }
 
 template <class Lanes>
-Directions<Lanes> load(const std::array<Array<scalar_t<Lanes>>, 6>& v, std::size_t at) {
-  const auto of = [&](std::size_t c) { return Lanes::load_aligned(v[c].data() + at); };
-  return reduce<Lanes>(of(0), of(1), of(2), of(3), of(4), of(5));
-}
-
-template <class Lanes>
 TorranceSparrow<Lanes> lobe() {
   return {Lanes(scalar_t<Lanes>(kAlpha))};
 }
@@ -54,13 +32,12 @@ TorranceSparrow<Lanes> lobe() {
 template <class Lanes>
 double lanes_ns() {
   using S = scalar_t<Lanes>;
-  const auto v = random_pairs<S>();
-  Array<S> out(kPairs);
+  PairArrays<S> pairs;
   const Brdf<Lanes> brdf{lobe<Lanes>(), Lanes(S(0)), Lanes(S(1))};
   const Interface<Lanes> surface{Lanes(S(kN)), Lanes(S(kK))};
   const auto run = [&] {
-    evaluate_pairs<Lanes>(brdf, {v[0], v[1], v[2], v[3], v[4], v[5]}, surface, Lanes(S(0.55)), out);
-    keep(out[0]);
+    evaluate_pairs<Lanes>(brdf, pairs.pairs(), surface, Lanes(S(0.55)), pairs.out);
+    keep(pairs.out[0]);
   };
   return least_ns(run) / kPairs;
 }
@@ -68,9 +45,9 @@ double lanes_ns() {
 /// 16 wavelengths of each pair, pairs in lanes: the lobe's shape once, R 16 times.
 template <class Lanes>
 [[gnu::flatten]] void sixteen(const TorranceSparrow<Lanes> model, const std::array<Interface<Lanes>, kWavelengths>& surfaces,
-                              const std::array<Array<scalar_t<Lanes>>, 6>& v, scalar_t<Lanes>* out) {
+                              const PairArrays<scalar_t<Lanes>>& pairs, scalar_t<Lanes>* out) {
   for (std::size_t at = 0; at < kPairs; at += Lanes::size) {
-    const Directions<Lanes> w = load<Lanes>(v, at);
+    const Directions<Lanes> w = pairs.template lanes<Lanes>(at);
     const Lanes shape = model.shape(w), cos2_d = w.cos2_d();
     for (std::size_t c = 0; c < kWavelengths; ++c)
       (shape * surfaces[c].reflectance_of_cos2(cos2_d).value()).store_aligned(out + c * kPairs + at);
@@ -80,12 +57,12 @@ template <class Lanes>
 template <class Lanes>
 double sixteen_ns() {
   using S = scalar_t<Lanes>;
-  const auto v = random_pairs<S>();
+  const PairArrays<S> pairs;
   const auto surfaces = metals<Lanes>();
   Array<S> out(kPairs * kWavelengths);
   const FlushToZero flush;
   const auto run = [&] {
-    sixteen<Lanes>(lobe<Lanes>(), surfaces, v, out.data());
+    sixteen<Lanes>(lobe<Lanes>(), surfaces, pairs, out.data());
     keep(out[0]);
   };
   return least_ns(run) / kPairs;
@@ -93,14 +70,13 @@ double sixteen_ns() {
 
 /// One pair after the other, in double; its wavelengths side by side.
 double one_pair_ns() {
-  const auto v = random_pairs<double>();
-  Array<double> out(kPairs);
+  PairArrays<double> pairs;
   const Brdf<double> brdf{TorranceSparrow<double>{kAlpha}, 0.0, 1.0};
   const Interface<double> surface{kN, kK};
   const auto run = [&] {
     for (std::size_t p = 0; p < kPairs; ++p)
-      out[p] = evaluate(brdf, reduce(v[0][p], v[1][p], v[2][p], v[3][p], v[4][p], v[5][p]), surface, 0.55);
-    keep(out[0]);
+      pairs.out[p] = evaluate(brdf, pairs.reduced(p), surface, 0.55);
+    keep(pairs.out[0]);
   };
   return least_ns(run) / kPairs;
 }
@@ -109,7 +85,7 @@ template <class Lanes>
 double one_pair_sixteen_ns() {
   using S = scalar_t<Lanes>;
   constexpr std::size_t kBlocks = kWavelengths / Lanes::size + (kWavelengths % Lanes::size != 0);
-  const auto v = random_pairs<double>();
+  const PairArrays<double> pairs;
   std::array<Interface<Lanes>, kBlocks> surfaces;
   for (std::size_t b = 0; b < kBlocks; ++b) {
     alignas(64) std::array<S, Lanes::size> n, k;
@@ -123,7 +99,7 @@ double one_pair_sixteen_ns() {
   const TorranceSparrow<double> model{kAlpha};
   const auto run = [&] {
     for (std::size_t p = 0; p < kPairs; ++p) {
-      const auto w = reduce(v[0][p], v[1][p], v[2][p], v[3][p], v[4][p], v[5][p]);
+      const auto w = pairs.reduced(p);
       const Lanes shape = Lanes(S(model.shape(w))), cos2_d = Lanes(S(w.cos2_d()));
       for (std::size_t b = 0; b < kBlocks; ++b)
         (shape * surfaces[b].reflectance_of_cos2(cos2_d).value()).store_aligned(out.data() + (p * kBlocks + b) * Lanes::size);
@@ -136,34 +112,34 @@ double one_pair_sixteen_ns() {
 /// f and its derivatives by alpha, n, k.
 double jet_ns() {
   using J = Jet<3>;
-  const auto v = random_pairs<double>();
+  const PairArrays<double> pairs;
   std::vector<J> out(kPairs);
   const TorranceSparrow<J> model{J(kAlpha, 0)};
   const Interface<J> surface{J(kN, 1), J(kK, 2)};
   const auto run = [&] {
     for (std::size_t p = 0; p < kPairs; ++p)
-      out[p] = lobe_value<J>(model, reduce(v[0][p], v[1][p], v[2][p], v[3][p], v[4][p], v[5][p]), surface, J(0.55));
+      out[p] = lobe_value<J>(model, pairs.reduced(p), surface, J(0.55));
     keep(out[0]);
   };
   return least_ns(run) / kPairs;
 }
 
 using D = Dual<DoubleLanes, 3>;
-[[gnu::flatten]] void duals(const TorranceSparrow<D> model, const Interface<D> surface, const std::array<Array<double>, 6>& v, double* out) {
+[[gnu::flatten]] void duals(const TorranceSparrow<D> model, const Interface<D> surface, const PairArrays<double>& pairs, double* out) {
   for (std::size_t at = 0; at < kPairs; at += DoubleLanes::size) {
-    const D f = lobe_value<D>(model, load<DoubleLanes>(v, at), surface, D(0.55));
+    const D f = lobe_value<D>(model, pairs.lanes<DoubleLanes>(at), surface, D(0.55));
     f.a.store_aligned(out + 4 * at);
     for (int i = 0; i < 3; ++i) f.v[static_cast<std::size_t>(i)].store_aligned(out + 4 * at + static_cast<std::size_t>(i + 1) * DoubleLanes::size);
   }
 }
 
 double dual_ns() {
-  const auto v = random_pairs<double>();
+  const PairArrays<double> pairs;
   Array<double> out(4 * kPairs);
   const TorranceSparrow<D> model{D(DoubleLanes(kAlpha), 0)};
   const Interface<D> surface{D(DoubleLanes(kN), 1), D(DoubleLanes(kK), 2)};
   const auto run = [&] {
-    duals(model, surface, v, out.data());
+    duals(model, surface, pairs, out.data());
     keep(out[0]);
   };
   return least_ns(run) / kPairs;
