@@ -9,7 +9,7 @@
 namespace gonio {
 
 /// Two ways to sum, by the index X of the largest term:
-///   X < turn  term by term from j = 1, with 1/j and ln(j!·j) from a table; so too where the terms are `narrowest` or less
+///   X < turn  term by term from j = 1, the weights by their recurrence; so too where the terms are `narrowest` or less
 ///             (squared standard deviation X/(1 + 2c)), and the sum is no integral;
 ///   above     the trapezoidal rule in √x, x = X(1 + δ)², `before` + `after` + 1 nodes `step` standard deviations apart. In √x a
 ///             term is nearly Gaussian for every b: by Poisson's summation formula the rule loses about 2·exp(-2π²/step²).
@@ -42,17 +42,18 @@ SeriesPeak<V> series_peak(const V& g, const V& b) {
   return {multiply_add(g, z, g), fast_log1p(z), g * z};
 }
 
-/// Σ_{j>=1}, term by term up to the last one that counts in any lane where `here`. `T` carries derivatives, if any.
+/// Σ_{j>=1}, term by term up to the last one that counts in any lane where `here`: Pois(j; g)/j by its recurrence, times exp(-b/j), each
+/// with half of the power. `T` carries derivatives, if any.
 template <class T, class V>
 T sum_by_terms(const T& g, const T& b, const V& peak, const decltype(V(0) < V(1))& here) {
-  using std::log;
   using S = scalar_t<V>;
-  const T log_g = log(g);
-  const V most = select(here, peak, V(0));
-  T sum = T(S(0));
-  for (int j = 1; j < kSeriesTable; ++j) {
-    const T exponent = multiply_add(log_g, T(S(j)), T(-T(kSeriesLog<S>[std::size_t(j)]) - g)) - b * T(kSeriesInverse<S>[std::size_t(j)]);
-    const T term = exp_of_decay<LaneSeries<S>::power>(exponent);
+  constexpr int kHalf = LaneSeries<S>::power / 2;
+  const V most = select(here, peak, V(S(0)));
+  T weight = g * exp_of_decay<kHalf>(T(-g)), sum = weight * exp_of_decay<kHalf>(T(-b));
+  const T minus_b = -b;
+  for (int j = 2; j < kSeriesTable; ++j) {
+    weight = weight * (g * T(kSeriesStep<S>[std::size_t(j)]));
+    const T term = weight * exp_of_decay<kHalf>(T(minus_b * T(kSeriesInverse<S>[std::size_t(j)])));
     sum += term;
     if ((j & 3) == 0 && !any(here && (V(S(j)) < most || value_of(term) > V(S(LaneSeries<S>::cut)) * value_of(sum)))) break;
   }

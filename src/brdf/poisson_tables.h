@@ -1,5 +1,5 @@
 #pragma once
-// What the diffraction series in lanes takes from tables: 1/j, ln(j!·j), and the deviance as a fraction of polynomials.
+// What the diffraction series takes from tables: 1/j, the step from one weight to the next, ln(j!·j), and the deviance as a polynomial.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +12,13 @@ template <class S>
 inline const std::array<S, kSeriesTable> kSeriesInverse = [] {
   std::array<S, kSeriesTable> all{};
   for (int j = 1; j < kSeriesTable; ++j) all[std::size_t(j)] = S(1.0 / j);
+  return all;
+}();
+/// g^j/(j!·j) over g^(j-1)/((j-1)!·(j-1)), but for g.
+template <class S>
+inline const std::array<S, kSeriesTable> kSeriesStep = [] {
+  std::array<S, kSeriesTable> all{};
+  for (int j = 2; j < kSeriesTable; ++j) all[std::size_t(j)] = S((j - 1.0) / (double(j) * j));
   return all;
 }();
 template <class S>
