@@ -33,12 +33,12 @@ TEST_CASE("Stability: ours hold on every map; the published forms fail on all bu
 
 TEST_CASE("Stability: the traps show as what they are", "[assess]") {
   // He: no number with the eye at the exact normal. Ten terms: nothing left of the lobe at g = 1e6. acos at alpha =
-  // 1e-4: 100 % in float.
+  // 1e-4: tens of per cent in float.
   const StabilityMap he = stability_map(sweep("he"), 2, 2), ten = stability_map(sweep("series-10"), 2, 2),
                      rough = stability_map(sweep("roughness"), 2, 3);
   CHECK(std::isinf(he.cells[2].error[2]));
   CHECK(ten.cells[1].error[2] == Approx(1));
-  CHECK(rough.cells[4].error[0] > 0.5);
+  CHECK(rough.cells[4].error[0] > 0.1);
 }
 
 TEST_CASE("Published forms are those of the books where nothing is lost: they agree with ours", "[assess]") {
