@@ -104,7 +104,8 @@ Comparison marx_vorburger_1990() {
     return KirchhoffProfile<double>{s.sigma_um, s.correlation_um}.coherent_share(kTheta, kUm);
   };
   const double shadow80 = shadowing_masking(Shadowing::smith_correlated, directions_from_deg(kTheta, 80.0, 180.0),
-                                            2 * kRough.sigma_um / kRough.correlation_um);
+                                            2 * kRough.sigma_um / kRough.correlation_um)
+                              .value();
   c.claims = {
       {"Kirchhoff's approximation is strained, rough", "lesser of T/λ and 4π r_c cos θ/λ", rough_validity, 0, 10},
       {"… and smooth", "the same", smooth_validity, 0, 10},
