@@ -82,11 +82,6 @@ inline std::vector<SamplingCase> sampling_cases(const std::vector<double>& share
   return all;
 }
 
-template <class Lanes>
-UnitVector<Lanes> spread(const UnitVector<double>& v) {
-  using S = scalar_t<Lanes>;
-  return {Lanes(S(v.x)), Lanes(S(v.y)), Lanes(S(v.z))};
-}
 inline UnitVector<double> lane(const UnitVector<DoubleLanes>& v, std::size_t k) { return {v.x.get(k), v.y.get(k), v.z.get(k)}; }
 
 }  // namespace gonio::test
