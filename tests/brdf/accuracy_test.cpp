@@ -124,3 +124,33 @@ TEST_CASE("A path that errs is caught: the judge's bars fail for a cosine turned
       measure(spec, Precision::twofold, "ours", own_evaluator(spec, NumberPath::double_scalar), points, exact).largest <
       1e-12);
 }
+
+TEST_CASE("Phong and Lafortune: both sides of the switch at 60 degrees hold; beyond it the short form would not",
+          "[brdf][accuracy]") {
+  for (const ModelSpec& spec : {ModelSpec{ModelId::phong_1975}, ModelSpec{ModelId::lafortune_1997}}) {
+    std::vector<BrdfPoint> points;
+    for (const double apart_deg : {59.0, 59.99, 60.01, 61.0, 75.0, 89.9}) {
+      BrdfPoint point{{40.0, 0, 1}, {}, {}, {1.5, 0.0}, 0.5, 0};
+      if (spec.id == ModelId::lafortune_1997) point.values = {1.0, 1.0, 1.0, 20.0, 0, 1};
+      // In the plane of incidence: o turned from the mirror direction of i by apart_deg.
+      point.i = direction(50, 180, Precision::single),
+      point.o = direction(std::abs(50 - apart_deg), apart_deg < 50 ? 0 : 180, Precision::single);
+      points.push_back(point);
+    }
+    const CaseError found =
+        measure(spec, Precision::single, "float lanes", own_evaluator(spec, NumberPath::float_lanes), points,
+                reference_values(spec, points));
+    INFO(found.name << ": " << found.largest << " " << found.largest_faint << worst_of(found));
+    CHECK(found.bright + found.faint >= 5);
+    CHECK(found.largest <= 5e-6);
+    CHECK(found.largest_faint <= 5e-5);
+  }
+  // cos s as 1 - |o - r|^2/2 in float, both directions 0.001 degrees above the horizon and a right angle apart.
+  const UnitVector<double> i = direction(89.999, 0, Precision::single), o = direction(89.999, 90, Precision::single);
+  const float hx = float(i.x) + float(o.x), hy = float(i.y) + float(o.y), dz = float(i.z) - float(o.z);
+  const double plain = 1 - 0.5f * (hx * hx + hy * hy + dz * dz), exact = i.z * o.z - i.x * o.x - i.y * o.y;
+  const float ours = sum_of_products(std::array<float, 3>{float(i.z), float(-i.x), float(-i.y)},
+                                     std::array<float, 3>{float(o.z), float(o.x), float(o.y)});
+  CHECK(std::abs(plain / exact - 1) > 0.1);
+  CHECK(double(ours) == Approx(exact).epsilon(1e-6));
+}
