@@ -156,7 +156,7 @@ CaseError measure(const ModelSpec& spec, Precision precision, std::string path, 
   result.name = case_name(spec), result.path = std::move(path), result.spec = spec;
   result.points = points.size();
   const std::vector<double> f = evaluator(points), peak = peaks(points, exact);
-  const bool reciprocal = options.reciprocal && spec.info().reciprocal;
+  const bool reciprocal = options.reciprocal && spec.reciprocal();
   const std::vector<double> back = reciprocal ? evaluator(exchanged(points)) : f;
   std::vector<double> errors;
   std::vector<PointError> ranked;

@@ -6,7 +6,7 @@
 // division, no exponential. With q(x) = 1/√π - x·erfcx(x):
 //   erfcx(x) = exp(x²)·erfc(x),  erfcx' = -2q,  q > 0, q → 1/(2x²√π):  nothing cancels in a derivative.
 // Measured against 60 digits, x = 1e-8...1e8, 8 lanes of double / 16 of float, largest relative error:
-//   erfcx 8.3e-16 / 3.3e-7, q 1.6e-15 / 6.5e-7, W0 2.8e-16 / 1.5e-7, fast_exp 4e-16 / 8.2e-8; Λ beside 1 + Λ 5.3e-16 / 2.5e-7;
+//   erfcx 8.3e-16 / 3.3e-7, q 1.6e-15 / 6.5e-7, W0 2.8e-16 / 1.5e-7, fast_exp 4e-16 / 8.2e-8, fast_log1p 9e-16 / 2e-7; Λ beside 1 + Λ 5.3e-16 / 2.5e-7;
 //   1 + 2Λ as a fraction of polynomials, in lanes, 1.8e-14 / 2e-7.
 #include <array>
 #include <cstdint>

@@ -30,9 +30,11 @@ struct Ggx {
 
   template <class G>
   Ratio<T> shape_fraction(const Directions<G>& w) const {
+    using std::sqrt;
     const T cos_i(w.cos_i), cos_o(w.cos_o), inverse_sum = T(1) / (cos_i + cos_o);
     const T slopes = square(T(w.hx) * inverse_sum / alpha_x) + square(T(w.hy) * inverse_sum / alpha_y);
-    const Ratio<T> d{square(T(1) + T(w.tan2_h)), square(T(1) + slopes) * kPi<T> * alpha_x * alpha_y};
+    // The widths go into the square first: alone, (1 + slopes)² leaves float's range at alpha = 1e-4.
+    const Ratio<T> d{square(T(1) + T(w.tan2_h)), kPi<T> * square(T((T(1) + slopes) * sqrt(alpha_x * alpha_y)))};
     return d * masking(w, cos_i, cos_o) * Ratio<T>{T(1), T(4) * cos_i * cos_o};
   }
   template <class G>

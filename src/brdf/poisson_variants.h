@@ -52,18 +52,19 @@ T poisson_lobe_gauss(const T& g, const T& b, const T& scale) {
   const T mean = select(rough, g, T(30)), deviation = sqrt(mean);
   T sum(0);
   for (const double zero : kHermite) {
-    T x = mean + deviation * T(zero) + T((zero * zero - 1) / 6 + kNodes / 4.0), squares(1);
+    T d = deviation * T(zero) + T((zero * zero - 1) / 6 + kNodes / 4.0), squares(1);  // x - g: known better than x
     for (int step = 0; step < 6; ++step) {  // orthonormal p_n(x), and their slopes
       T before(0), now(1), slope_before(0), slope(0);
       squares = T(1);
       for (int n = 0; n < kNodes; ++n) {
-        const T down = sqrt(T(n) * mean), up = T(1) / sqrt(T(n + 1) * mean), shift = x - mean - T(n);
+        const T down = sqrt(T(n) * mean), up = T(1) / sqrt(T(n + 1) * mean), shift = d - T(n);
         const T next = (shift * now - down * before) * up, slope_next = (now + shift * slope - down * slope_before) * up;
         before = now, now = next, slope_before = slope, slope = slope_next;
         if (n < kNodes - 1) squares += square(now);
       }
-      x = x - now / slope;
+      d = d - now / slope;
     }
+    const T x = mean + d;
     sum += exp_of_decay<90>(T(-b / x)) / (x * squares);
   }
   const T half(0x1p-45), by_nodes = sum * half * scale * half;

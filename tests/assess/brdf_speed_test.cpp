@@ -46,7 +46,7 @@ TEST_CASE("Schlick's D: a mean error of about 1.3 % of the peak, whatever its re
   CHECK(claim.mean > 0.005);  // PHYSICS: about 1.3 % (the mean depends on the angles taken)
   CHECK(claim.mean < 0.02);
   CHECK(claim.largest > 5 * claim.mean);
-  CHECK(claim.relative_largest == Approx(1));  // 0 where D is not
+  CHECK(claim.relative_largest >= 1);  // 0 where D is not, and far above it next to grazing at alpha = 0.7
   CHECK(claim.share_of_zeros > 0);
 }
 

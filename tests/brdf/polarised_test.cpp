@@ -159,7 +159,7 @@ TEST_CASE("Every model that states polarisation: m11 is evaluate(), matrices are
             REQUIRE(m.allFinite());
             REQUIRE(m.cwiseAbs().maxCoeff() <= 1 + 1e-14);
             REQUIRE(least_eigenvalue(m) > -1e-14);
-            if (!one.spec.info().reciprocal) continue;
+            if (!one.spec.reciprocal()) continue;
             const M4 back = matrix(evaluate_mueller(brdf, directions_from_deg(to, ti, -phi), azimuth_from_deg(-phi), surface, kUm)) / f;
             REQUIRE(worst_element(back, q * m.transpose() * q) < 1e-11);
           }
