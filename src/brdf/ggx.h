@@ -33,8 +33,8 @@ struct Ggx {
     using std::sqrt;
     const T cos_i(w.cos_i), cos_o(w.cos_o), inverse_sum = T(1) / (cos_i + cos_o);
     const T slopes = square(T(w.hx) * inverse_sum / alpha_x) + square(T(w.hy) * inverse_sum / alpha_y);
-    // The widths go into the square first: alone, (1 + slopes)² leaves float's range at alpha = 1e-4.
-    const Ratio<T> d{square(T(1) + T(w.tan2_h)), kPi<T> * square(T((T(1) + slopes) * sqrt(alpha_x * alpha_y)))};
+    // Divided before the square: (1 + slopes)² alone leaves float's range at alpha = 1e-4.
+    const Ratio<T> d{square(T((T(1) + T(w.tan2_h)) / ((T(1) + slopes) * sqrt(alpha_x * alpha_y)))), kPi<T>};
     return d * masking(w, cos_i, cos_o) * Ratio<T>{T(1), T(4) * cos_i * cos_o};
   }
   template <class G>

@@ -38,6 +38,7 @@ inline std::vector<double> values_at(const ModelInfo& info, double share, double
     else if (p.name == "alpha_y" || p.name == "nv") values.push_back(between(p, 0.15 + 0.7 * share));
     else if (info.id == ModelId::lafortune_1997 && p.name != "n")  // leaning the less the narrower, or nothing is left of the lobe
       values.push_back(std::exp((p.name == "c_x" ? -0.3 : p.name == "c_y" ? -0.5 : 0) / std::sqrt(between(info.parameters[3], share))));
+    else if (info.id == ModelId::sgd_2012 && p.name == "alpha") values.push_back(between(p, 0.3 + 0.7 * share));  // its core is alpha wide, its lobe √alpha
     else if (info.id == ModelId::sgd_2012 && p.name == "lambda") values.push_back(0.5);
     else if (info.id == ModelId::sgd_2012 && p.name == "theta0_rad") values.push_back(1);
     else if (info.id == ModelId::sgd_2012 && p.name != "alpha" && p.name != "p") values.push_back(1);

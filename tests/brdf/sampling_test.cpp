@@ -110,7 +110,9 @@ double empty_share_of(const Sampler& sampler, const V& o, double u0) {
       return std::is_same_v<Sampler, DiscSampler<double>> ? 1 - i.x * i.x - i.y * i.y : i.z;
     });
   };
-  const std::vector<double> cuts{0, 1e-8, 1e-6, 1e-4, 0.01, 0.0625, 0.125, 0.1875, 0.25, 0.375, 0.5, 0.625, 0.75, 0.8125, 0.875, 0.9375, 0.99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-8, 1};
+  std::vector<double> cuts{0, 1e-8, 1e-6, 1e-4, 0.01, 0.99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-8, 1};
+  for (int k = 1; k < 48; ++k) cuts.push_back(k / 48.0);  // the share has roots' kinks: one rule over few intervals agrees with itself by chance
+  std::sort(cuts.begin(), cuts.end());
   return integrate_adaptively(inner, cuts, 1, 3e-8, 400).value[0];
 }
 
@@ -249,5 +251,5 @@ TEST_CASE("Every sampler: density, empty samples, histogram and mean weight, in 
 }
 
 TEST_CASE("Every sampler over roughness and incidence", "[brdf][sampling][slow]") {
-  check_all(sampling_cases({0, 0.5, 1}, {0, 30, 60, 85, 89}), 1 << 14);
+  check_all(sampling_cases({0, 1}, {0, 30, 85, 89}), 1 << 14);
 }
