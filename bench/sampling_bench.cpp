@@ -49,8 +49,10 @@ T filled(std::mt19937_64& random) {
 
 template <class T>
 Brdf<T> brdf_of(const Family& family) {
-  if constexpr (is_lanes_v<T>) return spread_brdf<T>(family.spec, family.values);
-  else return make_brdf<T>(family.spec, std::vector<T>(family.values.begin(), family.values.end()));
+  if constexpr (is_lanes_v<T>)
+    return spread_brdf<T>(family.spec, family.values);
+  else
+    return make_brdf<T>(family.spec, std::vector<T>(family.values.begin(), family.values.end()));
 }
 
 template <class T>
@@ -62,7 +64,9 @@ void sample_with_pdf(benchmark::State& state, const Family& family) {
   std::vector<UnitVector<T>> eyes;
   for (std::size_t b = 0; b < kBatches; ++b) {
     numbers.push_back({filled<T>(random), filled<T>(random), filled<T>(random)});
-    eyes.push_back(CosineSampler<T>{}.sample({T(S(0)), T(S(0)), T(S(1))}, T(S(0.5)), filled<T>(random), filled<T>(random)).direction);
+    eyes.push_back(CosineSampler<T>{}
+                       .sample({T(S(0)), T(S(0)), T(S(1))}, T(S(0.5)), filled<T>(random), filled<T>(random))
+                       .direction);
   }
   std::visit(
       [&](const auto& sampler) {

@@ -17,8 +17,7 @@ void done(benchmark::State& state) { state.SetItemsProcessed(state.iterations() 
 void plain_loop(benchmark::State& state) {
   PairArrays<double> a;
   for (auto _ : state) {
-    for (std::size_t p = 0; p < kPairs; ++p)
-      a.out[p] = plain_beckmann(a.i(p), a.o(p), 0.3, 0.21, 3.272);
+    for (std::size_t p = 0; p < kPairs; ++p) a.out[p] = plain_beckmann(a.i(p), a.o(p), 0.3, 0.21, 3.272);
     benchmark::ClobberMemory();
   }
   done(state);
@@ -45,8 +44,7 @@ void jets(benchmark::State& state) {
   const TorranceSparrow<J> lobe{J(0.3, 0)};
   const Interface<J> gold{J(0.21, 1), J(3.272, 2)};
   for (auto _ : state) {
-    for (std::size_t p = 0; p < kPairs; ++p)
-      out[p] = lobe_value<J>(lobe, a.reduced(p), gold, J(0.55));
+    for (std::size_t p = 0; p < kPairs; ++p) out[p] = lobe_value<J>(lobe, a.reduced(p), gold, J(0.55));
     benchmark::ClobberMemory();
   }
   done(state);
@@ -54,7 +52,8 @@ void jets(benchmark::State& state) {
 BENCHMARK(jets);
 
 using D = Dual<DoubleLanes, 3>;
-[[gnu::flatten]] void dual_loop(const TorranceSparrow<D> lobe, const Interface<D> gold, const PairArrays<double>& a, double* out) {
+[[gnu::flatten]] void dual_loop(const TorranceSparrow<D> lobe, const Interface<D> gold, const PairArrays<double>& a,
+                                double* out) {
   for (std::size_t at = 0; at < kPairs; at += DoubleLanes::size) {
     const D f = lobe_value<D>(lobe, a.lanes<DoubleLanes>(at), gold, D(0.55));
     f.a.store_aligned(out + 4 * at);
@@ -81,7 +80,8 @@ const bool kRegistered = [] {
   both("ggx", ModelId::ggx, {0.3, 0.3, 0, 1});
   for (const double g : {0.1, 1.0, 10.0, 30.0, 100.0, 1e4, 1e6}) {
     const double sigma_um = std::sqrt(g) * 0.55 / (4 * kPi<double>);
-    both("beckmann-kirchhoff/g=" + std::to_string(int(10 * g)) + "e-1", ModelId::beckmann_kirchhoff, {sigma_um, std::max(10 * sigma_um, 2.0), 0, 1});
+    both("beckmann-kirchhoff/g=" + std::to_string(int(10 * g)) + "e-1", ModelId::beckmann_kirchhoff,
+         {sigma_um, std::max(10 * sigma_um, 2.0), 0, 1});
   }
   both("he-1991", ModelId::he_1991, {0.2, 3, 0, 1});
   return true;

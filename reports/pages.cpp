@@ -101,7 +101,8 @@ std::set<std::string> files_of(const fs::path& folder) {
 
 const std::vector<PublishedPage>& published_pages() {
   static const std::vector<PublishedPage> pages{
-      {"brdf-stability", "where reflection models fail: published forms beside ours, energy above 1, validity of Kirchhoff's theory",
+      {"brdf-stability",
+       "where reflection models fail: published forms beside ours, energy above 1, validity of Kirchhoff's theory",
        [](const fs::path&, const fs::path& folder) { write_brdf_stability(folder, true); }},
       {"interpolation", "what each interpolation variant loses on the database; the default of each class of data",
        [](const fs::path&, const fs::path& folder) { write_interpolation_errors(folder); }},

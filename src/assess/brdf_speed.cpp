@@ -40,7 +40,8 @@ double scalar_ns(const ModelSpec& spec, const std::vector<double>& values) {
 
 double plain_fresnel(double c, double n, double k) {
   const double s2 = (1 - c) * (1 + c), t = (n - 1) * (n + 1) - k * k + c * c, q = std::sqrt(t * t + 4 * n * n * k * k);
-  const double larger = std::sqrt(0.5 * (q + std::abs(t))) + 1e-30, smaller = n * k / larger, a = t >= 0 ? larger : smaller;
+  const double larger = std::sqrt(0.5 * (q + std::abs(t))) + 1e-30, smaller = n * k / larger,
+               a = t >= 0 ? larger : smaller;
   const double r_s = (q - 2 * a * c + c * c) / (q + 2 * a * c + c * c), p = q * c * c + s2 * s2, r = 2 * a * c * s2;
   return 0.5 * r_s * (1 + (p - r) / (p + r));
 }
@@ -62,7 +63,8 @@ double plain_beckmann(const UnitVector<double>& i, const UnitVector<double>& o, 
 double plain_loop_ns() {
   PairArrays<double> arrays;
   const auto run = [&] {
-    for (std::size_t p = 0; p < kPairs; ++p) arrays.out[p] = plain_beckmann(arrays.i(p), arrays.o(p), 0.3, kGold.n, kGold.k);
+    for (std::size_t p = 0; p < kPairs; ++p)
+      arrays.out[p] = plain_beckmann(arrays.i(p), arrays.o(p), 0.3, kGold.n, kGold.k);
     keep(arrays.out[0]);
   };
   return least_ns(run) / kPairs;
@@ -71,7 +73,9 @@ double plain_loop_ns() {
 std::vector<double> middle_values(const ModelInfo& info) {
   std::vector<double> values;
   for (const ParameterInfo& p : info.parameters)
-    values.push_back(p.name == "kd" && info.id != ModelId::lambert ? 0 : p.fallback.value_or(p.fit_lo > 0 ? std::sqrt(p.fit_lo * p.fit_hi) : 0.5));
+    values.push_back(p.name == "kd" && info.id != ModelId::lambert
+                         ? 0
+                         : p.fallback.value_or(p.fit_lo > 0 ? std::sqrt(p.fit_lo * p.fit_hi) : 0.5));
   return values;
 }
 

@@ -21,12 +21,13 @@ double plain_loop_ns();
 
 /// Loops of torrance-sparrow (correlated, conductor) that the ratios name, in ns an evaluation (a pair).
 struct FacetedCosts {
-  double plain, double_lanes, float_lanes;       ///< one wavelength
-  double jet, dual_lanes;                        ///< with derivatives by alpha, n, k: ceres::Jet, a dual number over double lanes
-  double one_pair, one_pair_16, one_pair_16f;    ///< one pair at a time: one wavelength; 16 wavelengths side by side, double and float lanes
-  double lanes_16, float_lanes_16;               ///< pairs in lanes, 16 wavelengths each: D and G once
-  double fma_per_ns_double, fma_per_ns_float;    ///< measured ceiling: fused multiply-adds of lanes, in numbers a ns
-  OperationCount operations;                     ///< of one evaluation, invariants of the batch not counted
+  double plain, double_lanes, float_lanes;  ///< one wavelength
+  double jet, dual_lanes;  ///< with derivatives by alpha, n, k: ceres::Jet, a dual number over double lanes
+  double one_pair, one_pair_16,
+      one_pair_16f;  ///< one pair at a time: one wavelength; 16 wavelengths side by side, double and float lanes
+  double lanes_16, float_lanes_16;             ///< pairs in lanes, 16 wavelengths each: D and G once
+  double fma_per_ns_double, fma_per_ns_float;  ///< measured ceiling: fused multiply-adds of lanes, in numbers a ns
+  OperationCount operations;                   ///< of one evaluation, invariants of the batch not counted
 };
 FacetedCosts faceted_costs();
 

@@ -26,14 +26,16 @@ double in_float(const ModelSpec& spec, const BrdfPoint& at) {
   const auto f = [](double x) { return static_cast<float>(x); };
   const std::vector<float> values(at.values.begin(), at.values.end());
   const Directions<float> w = reduce(f(at.i.x), f(at.i.y), f(at.i.z), f(at.o.x), f(at.o.y), f(at.o.z));
-  return evaluate(make_brdf<float>(spec, values), w, Interface<float>{f(at.surface.n), f(at.surface.k), at.surface.perfect}, f(at.wavelength_um));
+  return evaluate(make_brdf<float>(spec, values), w,
+                  Interface<float>{f(at.surface.n), f(at.surface.k), at.surface.perfect}, f(at.wavelength_um));
 }
 
 template <class T, class F>
 double density_ns(F&& density) {
   constexpr std::size_t kCount = 512;
   alignas(64) static std::array<scalar_t<T>, kCount> tan2, out;
-  for (std::size_t j = 0; j < kCount; ++j) tan2[j] = scalar_t<T>(0.3 * square((static_cast<double>((j * 37) % kCount) + 0.5) / kCount));
+  for (std::size_t j = 0; j < kCount; ++j)
+    tan2[j] = scalar_t<T>(0.3 * square((static_cast<double>((j * 37) % kCount) + 0.5) / kCount));
   const auto run = [&] {
     if constexpr (is_lanes_v<T>)
       for (std::size_t j = 0; j < kCount; j += T::size) density(T::load_aligned(&tan2[j])).store_aligned(&out[j]);
@@ -66,7 +68,8 @@ std::vector<SpeedRow> speed_rows(const std::function<void(const std::string&)>& 
     for (std::size_t form = 0; form < info.variants.size(); ++form) {
       ModelSpec spec;
       spec.id = info.id, spec.form = form;
-      if (!info.shadowings.empty() && std::find(info.shadowings.begin(), info.shadowings.end(), name_of(spec.shadowing)) == info.shadowings.end())
+      if (!info.shadowings.empty() &&
+          std::find(info.shadowings.begin(), info.shadowings.end(), name_of(spec.shadowing)) == info.shadowings.end())
         set_shadowing(spec, info.shadowings.front());
       const ModelSpec exact = exact_form(spec);
       std::vector<double> values = middle_values(info);
@@ -79,8 +82,9 @@ std::vector<SpeedRow> speed_rows(const std::function<void(const std::string&)>& 
       for (const Path& path : kPaths) {
         const std::vector<BrdfPoint> points = brdf_points(spec, path.precision, options);
         const std::vector<double> judge = reference_values(exact, points);
-        const BrdfEvaluator evaluator =
-            path.own ? own_evaluator(spec, *path.own) : pointwise([spec](const BrdfPoint& at) { return in_float(spec, at); });
+        const BrdfEvaluator evaluator = path.own
+                                            ? own_evaluator(spec, *path.own)
+                                            : pointwise([spec](const BrdfPoint& at) { return in_float(spec, at); });
         const CaseError e = measure(spec, path.precision, path.name, evaluator, points, judge, {1, false});
         rows.push_back({spec, path.name, cost.*path.ns, e.largest, e.percentile_999, e.mean, visible});
       }
@@ -104,7 +108,8 @@ SchlickClaim schlick_claim() {
   for (double alpha = 0.05; alpha <= 0.7001; alpha += 0.05)
     for (double theta_deg = 0.25; theta_deg < 90; theta_deg += 0.5) {
       const double t = square(std::tan(theta_deg * kPi<double> / 180)), peak = beckmann_d(0.0, alpha);
-      const double truth = beckmann_d(t, alpha), rational = schlick_d(t, alpha), error = std::abs(rational - truth) / peak;
+      const double truth = beckmann_d(t, alpha), rational = schlick_d(t, alpha),
+                   error = std::abs(rational - truth) / peak;
       claim.mean += error, squares += square(error), ++count;
       claim.largest = std::max(claim.largest, error);
       if (truth < 1e-3 * peak) continue;
@@ -115,7 +120,9 @@ SchlickClaim schlick_claim() {
   claim.mean /= count, claim.relative_mean /= relative, claim.share_of_zeros = double(zeros) / relative;
   claim.deviation = std::sqrt(squares / count - square(claim.mean));
   const double alpha = 0.3;
-  claim.speed_scalar = density_ns<double>([&](double t) { return std::exp(-t / (alpha * alpha)) * square(1 + t) / (kPi<double> * alpha * alpha); }) /
+  claim.speed_scalar = density_ns<double>([&](double t) {
+                         return std::exp(-t / (alpha * alpha)) * square(1 + t) / (kPi<double> * alpha * alpha);
+                       }) /
                        density_ns<double>([&](double t) { return schlick_d(t, alpha); });
   claim.speed_lanes = density_ns<FloatLanes>([](const FloatLanes& t) { return beckmann_d(t, FloatLanes(0.3f)); }) /
                       density_ns<FloatLanes>([](const FloatLanes& t) { return schlick_d(t, FloatLanes(0.3f)); });

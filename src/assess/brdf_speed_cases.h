@@ -9,7 +9,8 @@ namespace gonio {
 struct SpeedRow {
   ModelSpec spec;
   std::string path;  ///< float lanes, double lanes, float, double
-  double ns = 0, largest = 0, percentile_999 = 0, mean = 0;  ///< relative errors where f > 1e-6 of its peak (float), 1e-290 (double)
+  double ns = 0, largest = 0, percentile_999 = 0,
+         mean = 0;             ///< relative errors where f > 1e-6 of its peak (float), 1e-290 (double)
   VisibleError visible{0, 0};  ///< of the variant's formula (double), against the exact form
 
   std::string name() const;

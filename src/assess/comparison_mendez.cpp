@@ -66,8 +66,7 @@ std::vector<Curve> steep_curves(const Interface<double>& gold) {
 
 /// What Smith's shadowing leaves, in the plane on the mirror side.
 double seen(double theta_i, double theta_o) {
-  return shadowing_masking(Shadowing::smith_correlated, directions_from_deg(theta_i, theta_o, 180.0),
-                           2 * kSigma / 21.9)
+  return shadowing_masking(Shadowing::smith_correlated, directions_from_deg(theta_i, theta_o, 180.0), 2 * kSigma / 21.9)
       .value();
 }
 

@@ -44,7 +44,8 @@ double lanes_ns() {
 
 /// 16 wavelengths of each pair, pairs in lanes: the lobe's shape once, R 16 times.
 template <class Lanes>
-[[gnu::flatten]] void sixteen(const TorranceSparrow<Lanes> model, const std::array<Interface<Lanes>, kWavelengths>& surfaces,
+[[gnu::flatten]] void sixteen(const TorranceSparrow<Lanes> model,
+                              const std::array<Interface<Lanes>, kWavelengths>& surfaces,
                               const PairArrays<scalar_t<Lanes>>& pairs, scalar_t<Lanes>* out) {
   for (std::size_t at = 0; at < kPairs; at += Lanes::size) {
     const Directions<Lanes> w = pairs.template lanes<Lanes>(at);
@@ -74,8 +75,7 @@ double one_pair_ns() {
   const Brdf<double> brdf{TorranceSparrow<double>{kAlpha}, 0.0, 1.0};
   const Interface<double> surface{kN, kK};
   const auto run = [&] {
-    for (std::size_t p = 0; p < kPairs; ++p)
-      pairs.out[p] = evaluate(brdf, pairs.reduced(p), surface, 0.55);
+    for (std::size_t p = 0; p < kPairs; ++p) pairs.out[p] = evaluate(brdf, pairs.reduced(p), surface, 0.55);
     keep(pairs.out[0]);
   };
   return least_ns(run) / kPairs;
@@ -102,7 +102,8 @@ double one_pair_sixteen_ns() {
       const auto w = pairs.reduced(p);
       const Lanes shape = Lanes(S(model.shape(w))), cos2_d = Lanes(S(w.cos2_d()));
       for (std::size_t b = 0; b < kBlocks; ++b)
-        (shape * surfaces[b].reflectance_of_cos2(cos2_d).value()).store_aligned(out.data() + (p * kBlocks + b) * Lanes::size);
+        (shape * surfaces[b].reflectance_of_cos2(cos2_d).value())
+            .store_aligned(out.data() + (p * kBlocks + b) * Lanes::size);
     }
     keep(out[0]);
   };
@@ -117,19 +118,21 @@ double jet_ns() {
   const TorranceSparrow<J> model{J(kAlpha, 0)};
   const Interface<J> surface{J(kN, 1), J(kK, 2)};
   const auto run = [&] {
-    for (std::size_t p = 0; p < kPairs; ++p)
-      out[p] = lobe_value<J>(model, pairs.reduced(p), surface, J(0.55));
+    for (std::size_t p = 0; p < kPairs; ++p) out[p] = lobe_value<J>(model, pairs.reduced(p), surface, J(0.55));
     keep(out[0]);
   };
   return least_ns(run) / kPairs;
 }
 
 using D = Dual<DoubleLanes, 3>;
-[[gnu::flatten]] void duals(const TorranceSparrow<D> model, const Interface<D> surface, const PairArrays<double>& pairs, double* out) {
+[[gnu::flatten]] void duals(const TorranceSparrow<D> model, const Interface<D> surface, const PairArrays<double>& pairs,
+                            double* out) {
   for (std::size_t at = 0; at < kPairs; at += DoubleLanes::size) {
     const D f = lobe_value<D>(model, pairs.lanes<DoubleLanes>(at), surface, D(0.55));
     f.a.store_aligned(out + 4 * at);
-    for (int i = 0; i < 3; ++i) f.v[static_cast<std::size_t>(i)].store_aligned(out + 4 * at + static_cast<std::size_t>(i + 1) * DoubleLanes::size);
+    for (int i = 0; i < 3; ++i)
+      f.v[static_cast<std::size_t>(i)].store_aligned(out + 4 * at +
+                                                     static_cast<std::size_t>(i + 1) * DoubleLanes::size);
   }
 }
 

@@ -21,7 +21,8 @@ struct PairArrays {
     for (auto& component : v) component.resize(kPairs);
     for (std::size_t p = 0; p < kPairs; ++p)
       for (const std::size_t first : {0, 3}) {
-        const double z = 0.05 + 0.95 * uniform(random), phi = 2 * kPi<double> * uniform(random), r = std::sqrt((1 - z) * (1 + z));
+        const double z = 0.05 + 0.95 * uniform(random), phi = 2 * kPi<double> * uniform(random),
+                     r = std::sqrt((1 - z) * (1 + z));
         v[first][p] = S(r * std::cos(phi)), v[first + 1][p] = S(r * std::sin(phi)), v[first + 2][p] = S(z);
       }
   }

@@ -13,15 +13,16 @@ namespace gonio {
 
 template <class T, int N>
 struct Dual {
-  T a = T(0);              ///< the value
-  std::array<T, N> v;      ///< its derivatives
+  T a = T(0);          ///< the value
+  std::array<T, N> v;  ///< its derivatives
 
   Dual() { v.fill(T(0)); }
   explicit Dual(const T& value) : a(value) { v.fill(T(0)); }
   /// A constant; a variable with its own index has derivative 1 there.
   template <class S>
-    requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>)
-  explicit Dual(S value) : a(T(scalar_t<T>(value))) { v.fill(T(0)); }
+  requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>) explicit Dual(S value) : a(T(scalar_t<T>(value))) {
+    v.fill(T(0));
+  }
   Dual(const T& value, int index) : Dual(value) { v[index] = T(1); }
 };
 
@@ -209,7 +210,9 @@ Dual<T, N> pow(const Dual<T, N>& x, const Dual<T, N>& p) {
 /// The slopes of the special functions, in closed form.
 template <class T, int N>
 struct Special<Dual<T, N>> {
-  static Dual<T, N> erfcx(const Dual<T, N>& x) { return chain(x, Special<T>::erfcx(x.a), T(T(-2) * Special<T>::erfcx_q(x.a))); }
+  static Dual<T, N> erfcx(const Dual<T, N>& x) {
+    return chain(x, Special<T>::erfcx(x.a), T(T(-2) * Special<T>::erfcx_q(x.a)));
+  }
   /// q' = 2x·q - erfcx = 2(x·q) - erfcx, by its parts (second derivatives of erfcx are not the models' business).
   static Dual<T, N> erfcx_q(const Dual<T, N>& x) {
     const T q = Special<T>::erfcx_q(x.a);

@@ -69,13 +69,17 @@ T multiply_add(const T& a, const T& b, const T& c) {
 
 template <class T>
 T smaller_of(const T& a, const T& b) {
-  if constexpr (is_lanes_v<T>) return xsimd::min(a, b);
-  else return select(a < b, a, b);
+  if constexpr (is_lanes_v<T>)
+    return xsimd::min(a, b);
+  else
+    return select(a < b, a, b);
 }
 template <class T>
 T larger_of(const T& a, const T& b) {
-  if constexpr (is_lanes_v<T>) return xsimd::max(a, b);
-  else return select(a > b, a, b);
+  if constexpr (is_lanes_v<T>)
+    return xsimd::max(a, b);
+  else
+    return select(a > b, a, b);
 }
 
 /// The number without its derivatives (for choosing branches and nodes, which carry none); specialised in base/jet.h.

@@ -44,15 +44,20 @@ T exp_of_decay(const T& x) {
     const T minus_ln2_low = T(kDouble ? S(-1.90821492927058770002e-10) : S(2.12194440e-4));
     const T r = multiply_add(k, minus_ln2_low, multiply_add(k, minus_ln2_high, clamped));
     const T tail = [&] {
-      if constexpr (kDouble) return polynomial(r, kExpTail);
-      else return polynomial(r, kExpTailFloat);
+      if constexpr (kDouble)
+        return polynomial(r, kExpTail);
+      else
+        return polynomial(r, kExpTailFloat);
     }();
     const T e = multiply_add(r * r, tail, T(T(S(1)) + r));
-    return xsimd::bitwise_cast<T>(xsimd::bitwise_cast<BitLanes>(e) + (xsimd::bitwise_cast<BitLanes>(shifted) << kMantissa));
+    return xsimd::bitwise_cast<T>(xsimd::bitwise_cast<BitLanes>(e) +
+                                  (xsimd::bitwise_cast<BitLanes>(shifted) << kMantissa));
   } else {
     using std::exp;
-    if constexpr (kPower == 0) return exp(x);
-    else return exp(x) * T(scalar_t<T>(std::ldexp(1.0, kPower)));
+    if constexpr (kPower == 0)
+      return exp(x);
+    else
+      return exp(x) * T(scalar_t<T>(std::ldexp(1.0, kPower)));
   }
 }
 
@@ -62,7 +67,8 @@ T fast_exp(const T& x) {
   if constexpr (is_lanes_v<T>) {
     using S = scalar_t<T>;
     constexpr bool kDouble = sizeof(S) == 8;
-    return select(x < T(S(kDouble ? -708.39 : -87.33)), T(S(0)), exp_of_decay<0>(smaller_of(x, T(S(kDouble ? 709.0 : 88.0)))));
+    return select(x < T(S(kDouble ? -708.39 : -87.33)), T(S(0)),
+                  exp_of_decay<0>(smaller_of(x, T(S(kDouble ? 709.0 : 88.0)))));
   } else {
     using std::exp;
     return exp(x);
@@ -86,8 +92,10 @@ T fast_log1p(const T& x) {
     const T m = xsimd::bitwise_cast<T>(bits - (exponent << kMantissa));
     const T k = xsimd::to_float(exponent), f = (m - T(S(1))) + lost, t = f / (T(S(2)) + f);
     const T series = [&] {
-      if constexpr (kDouble) return polynomial(T(t * t), kLogarithm);
-      else return polynomial(T(t * t), kLogarithmFloat);
+      if constexpr (kDouble)
+        return polynomial(T(t * t), kLogarithm);
+      else
+        return polynomial(T(t * t), kLogarithmFloat);
     }();
     return multiply_add(k, T(S(0.69314718055994530942)), T(t * series));
   } else {
@@ -102,8 +110,10 @@ Ratio<T> smith_fraction(const T& s2) {
   using std::sqrt;
   constexpr bool kFloat = std::is_same_v<S, float>;
   const T held = larger_of(s2, T(S(kFloat ? kSmithLeastFloat : kSmithLeast))), s = sqrt(held), x = T(S(1)) / held;
-  if constexpr (kFloat) return {s * polynomial(x, kSmithOverFloat), polynomial(x, kSmithUnderFloat)};
-  else return {s * polynomial(x, kSmithOver), polynomial(x, kSmithUnder)};
+  if constexpr (kFloat)
+    return {s * polynomial(x, kSmithOverFloat), polynomial(x, kSmithUnderFloat)};
+  else
+    return {s * polynomial(x, kSmithOver), polynomial(x, kSmithUnder)};
 }
 
 /// The functions proper; numbers with derivatives (base/dual.h, base/jet.h) and 50 digits specialise it.
@@ -114,13 +124,17 @@ struct Special {
   // t here is 1/(x + K), so y = 2K·t - 1.
   static T erfcx(const T& x) {
     const T t = T(1) / (x + T(kErfcxScale)), y = multiply_add(T(2 * kErfcxScale), t, T(-1));
-    if constexpr (kFloat) return t * polynomial(y, kErfcxFloat);
-    else return t * polynomial(y, kErfcx);
+    if constexpr (kFloat)
+      return t * polynomial(y, kErfcxFloat);
+    else
+      return t * polynomial(y, kErfcx);
   }
 
   static T scaled_q(const T& y) {
-    if constexpr (kFloat) return polynomial(y, kErfcxSlopeFloat);
-    else return polynomial(y, kErfcxSlope);
+    if constexpr (kFloat)
+      return polynomial(y, kErfcxSlopeFloat);
+    else
+      return polynomial(y, kErfcxSlope);
   }
 
   static T erfcx_q(const T& x) {
@@ -133,13 +147,16 @@ struct Special {
   /// Lanes: a fraction. Scalars: from Λ, to the last place.
   static Ratio<T> smith_visible(const T& s2) {
     using std::sqrt;
-    if constexpr (is_lanes_v<T>) return smith_fraction<scalar_t<T>>(s2);
-    else return whole(T(T(1) + T(2) * smith_lambda_core(T(sqrt(larger_of(s2, T(1e-30)))))));
+    if constexpr (is_lanes_v<T>)
+      return smith_fraction<scalar_t<T>>(s2);
+    else
+      return whole(T(T(1) + T(2) * smith_lambda_core(T(sqrt(larger_of(s2, T(1e-30)))))));
   }
 
   static T smith_lambda_core(const T& s, const T& exp_minus_a2) {
     const T v = T(1) / multiply_add(T(kErfcxScale), s, T(1));
-    return T(0.5 / (kErfcxScale * kErfcxScale)) * s * exp_minus_a2 * square(T(1) - v) * scaled_q(multiply_add(T(-2), v, T(1)));
+    return T(0.5 / (kErfcxScale * kErfcxScale)) * s * exp_minus_a2 * square(T(1) - v) *
+           scaled_q(multiply_add(T(-2), v, T(1)));
   }
 };
 

@@ -23,10 +23,11 @@ struct AnisotropicBeckmann {
   Ratio<T> shape_fraction(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o), cos_sum = cos_i + cos_o;
     const T slopes = square(T(w.hx) / (alpha_x * cos_sum)) + square(T(w.hy) / (alpha_y * cos_sum));
-    const Ratio<T> d = gaussian_fraction(T(T(0.5) * slopes), T(T(1) + T(w.tan2_h)), T(T(4) * kPi<T> * alpha_x * alpha_y * cos_i * cos_o));
+    const Ratio<T> d = gaussian_fraction(T(T(0.5) * slopes), T(T(1) + T(w.tan2_h)),
+                                         T(T(4) * kPi<T> * alpha_x * alpha_y * cos_i * cos_o));
     // Smith's functions take α²·tan² only: the stretched tangents stand in for a surface of alpha = 1.
-    Directions<T> stretched{cos_i, cos_o, T(w.cos_d), T(w.tan2_h), stretch(T(w.ix), T(w.iy), cos_i),
-                            stretch(T(w.ox), T(w.oy), cos_o)};
+    Directions<T> stretched{
+        cos_i, cos_o, T(w.cos_d), T(w.tan2_h), stretch(T(w.ix), T(w.iy), cos_i), stretch(T(w.ox), T(w.oy), cos_o)};
     return d * shadowing_masking<T>(shadowing, stretched, T(1));
   }
   template <class G>
@@ -35,7 +36,9 @@ struct AnisotropicBeckmann {
   }
 
  private:
-  T stretch(const T& x, const T& y, const T& z) const { return (square(alpha_x * x) + square(alpha_y * y)) / square(z); }
+  T stretch(const T& x, const T& y, const T& z) const {
+    return (square(alpha_x * x) + square(alpha_y * y)) / square(z);
+  }
 };
 
 }  // namespace gonio

@@ -55,7 +55,7 @@ struct AshikhminShirley {
     const T exponent = T(0.5) * (n_u * T(square(w.hx)) + n_v * T(square(w.hy))) / h_z2 * T(log1p_over(w.tan2_h));
     const T scale = sqrt((n_u + T(1)) * (n_v + T(1))) / (T(8) * kPi<T>);
     const T specular = scaled_exp(T(scale * facet(w, cos_d) / (cos_d * larger_of(cos_i, cos_o))), exponent);
-    return specular + T(28) / (T(23) * kPi<T>) * rd * (T(1) - f0) * below(cos_i) * below(cos_o);
+    return specular + T(28) / (T(23) * kPi<T>)*rd * (T(1) - f0) * below(cos_i) * below(cos_o);
   }
 
   /// 1 - (1 - c/2)⁵ without loss at c = 0.

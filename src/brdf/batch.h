@@ -27,10 +27,12 @@ template <int kShadowing, bool kExact, bool kRetro, class Lanes, class L>
   if constexpr (kShadowing != kLobesOwn) lobe.shadowing = static_cast<Shadowing>(kShadowing);
   if constexpr (kExact) lobe.form = FacetForm::exact, lobe.schlick_fresnel = false;
   for (std::size_t at = 0; at + Lanes::size <= count; at += Lanes::size) {
-    const auto load = [at](std::span<const scalar_t<Lanes>> component) { return Lanes::load_unaligned(component.data() + at); };
+    const auto load = [at](std::span<const scalar_t<Lanes>> component) {
+      return Lanes::load_unaligned(component.data() + at);
+    };
     const Lanes ix = load(pairs.ix), iy = load(pairs.iy);
-    const Directions<Lanes> w = reduce<Lanes>(kRetro ? Lanes(-ix) : ix, kRetro ? Lanes(-iy) : iy, load(pairs.iz), load(pairs.ox),
-                                              load(pairs.oy), load(pairs.oz));
+    const Directions<Lanes> w = reduce<Lanes>(kRetro ? Lanes(-ix) : ix, kRetro ? Lanes(-iy) : iy, load(pairs.iz),
+                                              load(pairs.ox), load(pairs.oy), load(pairs.oz));
     multiply_add(scale, lobe_value<Lanes>(lobe, w, surface, wavelength_um), diffuse).store_unaligned(f_per_sr + at);
   }
 }
@@ -47,11 +49,16 @@ void evaluate_lobe_lanes(const L& lobe, bool retro, const Rest&... rest) {
     if (lobe.form != FacetForm::exact) return evaluate_lanes<kLobesOwn, false, false, Lanes>(lobe, rest...);
   if constexpr (requires { lobe.shadowing; }) {
     switch (lobe.shadowing) {
-      case Shadowing::none: return shadowed.template operator()<Shadowing::none>();
-      case Shadowing::v_cavity: return shadowed.template operator()<Shadowing::v_cavity>();
-      case Shadowing::smith_separable: return shadowed.template operator()<Shadowing::smith_separable>();
-      case Shadowing::smith_correlated: return shadowed.template operator()<Shadowing::smith_correlated>();
-      case Shadowing::smith_1967: return shadowed.template operator()<Shadowing::smith_1967>();
+      case Shadowing::none:
+        return shadowed.template operator()<Shadowing::none>();
+      case Shadowing::v_cavity:
+        return shadowed.template operator()<Shadowing::v_cavity>();
+      case Shadowing::smith_separable:
+        return shadowed.template operator()<Shadowing::smith_separable>();
+      case Shadowing::smith_correlated:
+        return shadowed.template operator()<Shadowing::smith_correlated>();
+      case Shadowing::smith_1967:
+        return shadowed.template operator()<Shadowing::smith_1967>();
     }
   }
   evaluate_lanes<kLobesOwn, false, false, Lanes>(lobe, rest...);
@@ -59,14 +66,17 @@ void evaluate_lobe_lanes(const L& lobe, bool retro, const Rest&... rest) {
 
 /// f_r in sr⁻¹ (no cosine) of every pair; `f_per_sr` as long as they are. Deltas evaluate to 0.
 template <class Lanes>
-void evaluate_pairs(const Brdf<Lanes>& brdf, const DirectionPairs<scalar_t<Lanes>>& pairs, const Interface<Lanes>& surface,
-                    const Lanes& wavelength_um, std::span<scalar_t<Lanes>> f_per_sr) {
+void evaluate_pairs(const Brdf<Lanes>& brdf, const DirectionPairs<scalar_t<Lanes>>& pairs,
+                    const Interface<Lanes>& surface, const Lanes& wavelength_um, std::span<scalar_t<Lanes>> f_per_sr) {
   using S = scalar_t<Lanes>;
   const FlushToZero flush;
   const Lanes diffuse = brdf.kd * (brdf.diffuse_times_r0() ? surface.r0() : Lanes(S(1))) / kPi<Lanes>;
   const auto run = [&](const DirectionPairs<S>& some, std::size_t count, S* f) {
-    std::visit([&](const auto& one) { evaluate_lobe_lanes<Lanes>(one, brdf.retro, brdf.ks, diffuse, surface, wavelength_um, some, count, f); },
-               brdf.lobe);
+    std::visit(
+        [&](const auto& one) {
+          evaluate_lobe_lanes<Lanes>(one, brdf.retro, brdf.ks, diffuse, surface, wavelength_um, some, count, f);
+        },
+        brdf.lobe);
   };
   run(pairs, pairs.size(), f_per_sr.data());
   const std::size_t done = pairs.size() / Lanes::size * Lanes::size, rest = pairs.size() - done;

@@ -8,7 +8,16 @@ namespace gonio {
 
 /// Which form of the series: the whole of it, one of its limits, the whole with another factor F (below); or the sum by another
 /// method (brdf/poisson_variants.h): outwards from the largest term in every number type, 10 or 40 terms, a Gauss rule.
-enum class KirchhoffForm { series, rough_limit, smooth_limit, nieto_vesperinas_1982, outwards, ten_terms, forty_terms, gauss_12 };
+enum class KirchhoffForm {
+  series,
+  rough_limit,
+  smooth_limit,
+  nieto_vesperinas_1982,
+  outwards,
+  ten_terms,
+  forty_terms,
+  gauss_12
+};
 
 /// Beckmann-Kirchhoff diffraction by a Gaussian rough surface with autocorrelation exp(-τ²/T²).
 /// Beckmann & Spizzichino 1963, ch. 5; Maillot 1996 eq. (18a), §I.2.3.2. With u, w the components of i + o in and across the
@@ -52,12 +61,18 @@ struct BeckmannKirchhoff {
     T scale = kPi<T> * square(correlation_um / wavelength_um) * square(f_prime) / cosines;
     if (form == KirchhoffForm::nieto_vesperinas_1982) scale = scale * square(T(T(w.cos_i) / T(w.cos_o)));
     switch (form) {
-      case KirchhoffForm::smooth_limit: return scaled_exp(T(scale * g), T(g + b));
-      case KirchhoffForm::outwards: return poisson_lobe_sum(g, b, scale);
-      case KirchhoffForm::ten_terms: return poisson_lobe_fixed_terms(g, b, scale, 10);
-      case KirchhoffForm::forty_terms: return poisson_lobe_fixed_terms(g, b, scale, 40);
-      case KirchhoffForm::gauss_12: return poisson_lobe_gauss<12>(g, b, scale);
-      default: return diffraction_series(g, b, scale);
+      case KirchhoffForm::smooth_limit:
+        return scaled_exp(T(scale * g), T(g + b));
+      case KirchhoffForm::outwards:
+        return poisson_lobe_sum(g, b, scale);
+      case KirchhoffForm::ten_terms:
+        return poisson_lobe_fixed_terms(g, b, scale, 10);
+      case KirchhoffForm::forty_terms:
+        return poisson_lobe_fixed_terms(g, b, scale, 40);
+      case KirchhoffForm::gauss_12:
+        return poisson_lobe_gauss<12>(g, b, scale);
+      default:
+        return diffraction_series(g, b, scale);
     }
   }
 

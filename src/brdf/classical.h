@@ -48,9 +48,12 @@ template <class T>
 T blinn_density(BlinnDensity density, const T& tan2, const T& parameter, const T& scale = T(1)) {
   using std::log1p;
   switch (density) {
-    case BlinnDensity::cosine_power: return scaled_exp(scale, T(T(0.5) * parameter * log1p(tan2)));
-    case BlinnDensity::gaussian_angle: return scaled_exp(scale, T(square(T(parameter * angle_of(tan2)))));
-    case BlinnDensity::spheroid: return scale * square(T((T(1) + tan2) / (T(1) + tan2 / square(parameter))));
+    case BlinnDensity::cosine_power:
+      return scaled_exp(scale, T(T(0.5) * parameter * log1p(tan2)));
+    case BlinnDensity::gaussian_angle:
+      return scaled_exp(scale, T(square(T(parameter * angle_of(tan2)))));
+    case BlinnDensity::spheroid:
+      return scale * square(T((T(1) + tan2) / (T(1) + tan2 / square(parameter))));
   }
   return T(0);
 }
@@ -94,7 +97,8 @@ struct Blinn {
   }
 
   FacetSampler<T> sampler() const {
-    if (density == BlinnDensity::spheroid) return facets_seen(parameter, parameter, SlopeKind::ggx, Shadowing::v_cavity);
+    if (density == BlinnDensity::spheroid)
+      return facets_seen(parameter, parameter, SlopeKind::ggx, Shadowing::v_cavity);
     if (density == BlinnDensity::gaussian_angle) return {T(1), T(1), {SlopeKind::angle_gaussian, parameter}};
     return {T(1), T(1), {SlopeKind::power, T(0.5) * (parameter + T(2))}};
   }
@@ -169,9 +173,11 @@ struct PhongHighlight {
     if (highlight == Highlight::half_vector) return scaled_exp(T(T(1) / cos_i), T(T(0.5) * n * log1p(T(w.tan2_h))));
     const T apart = T(0.5) * (square(T(w.hx)) + square(T(w.hy)) + square(T(w.cos_i) - T(w.cos_o)));
     const auto wide = apart > T(0.5);
-    const T cosine = sum_of_products(std::array<T, 3>{T(w.cos_i), T(-w.ix), T(-w.iy)}, std::array<T, 3>{T(w.cos_o), T(w.ox), T(w.oy)});
+    const T cosine = sum_of_products(std::array<T, 3>{T(w.cos_i), T(-w.ix), T(-w.iy)},
+                                     std::array<T, 3>{T(w.cos_o), T(w.ox), T(w.oy)});
     const auto facing = !wide || cosine > T(0);
-    const T log_cosine = select(wide, T(log(select(wide && facing, cosine, T(1)))), T(log1p(T(-select(wide, T(0), apart)))));
+    const T log_cosine =
+        select(wide, T(log(select(wide && facing, cosine, T(1)))), T(log1p(T(-select(wide, T(0), apart)))));
     return select(facing, scaled_exp(T(T(1) / cos_i), T(-n * log_cosine)), T(0));
   }
 };

@@ -25,22 +25,24 @@ T dielectric_pdf(const RoughDielectric<T>& lobe, const UnitVector<T>& v, const U
   const Directions<T> w = reduce(v.x, v.y, v.z, to.x, to.y, z);
   const T reflected = lobe.density(w.tan2_h) * lobe.g1(tan2_v) / (T(4) * v.z) * fresnel(w.cos_d, n, T(0)).unpolarised();
   const RefractingFacet<T> facet = refracting_facet(v, to, n);
-  const T refracted = facet.a * facet.b / square(facet.length2) * square(n) * facet.transmittance * lobe.density(facet.tan2) *
-                      lobe.g1(tan2_v) / v.z;
+  const T refracted = facet.a * facet.b / square(facet.length2) * square(n) * facet.transmittance *
+                      lobe.density(facet.tan2) * lobe.g1(tan2_v) / v.z;
   return select(above, reflected, refracted);
 }
 
 /// Draws a normal as v sees it, Smith's (facet_sampler.h), from u1 and u2, and reflects with probability F, else refracts, by u3; the weight
 /// is G1 of the direction drawn, and 0 (empty) where that falls on the wrong side.
 template <class T>
-DielectricSample<T> sample_dielectric(const RoughDielectric<T>& lobe, const UnitVector<T>& v, const T& n, const T& u1, const T& u2,
-                                      const T& u3) {
+DielectricSample<T> sample_dielectric(const RoughDielectric<T>& lobe, const UnitVector<T>& v, const T& n, const T& u1,
+                                      const T& u2, const T& u3) {
   const UnitVector<T> h = lobe.sampler().normal(v, u1, u2);
   const T c = dot(v, h);
   const DielectricShares<T> shares = dielectric_shares(c, n);
   const auto transmitted = u3 >= shares.reflected.unpolarised();
-  const T along = select(transmitted, T(c / n - shares.cos_t), T(T(2) * c)), back = select(transmitted, T(T(1) / n), T(1));
-  const UnitVector<T> to = normalised(T(along * h.x - back * v.x), T(along * h.y - back * v.y), T(along * h.z - back * v.z));
+  const T along = select(transmitted, T(c / n - shares.cos_t), T(T(2) * c)),
+          back = select(transmitted, T(T(1) / n), T(1));
+  const UnitVector<T> to =
+      normalised(T(along * h.x - back * v.x), T(along * h.y - back * v.y), T(along * h.z - back * v.z));
   const T up = select(transmitted, T(-to.z), to.z);
   const auto valid = c > T(0) && up > T(0);
   const UnitVector<T> safe{select(valid, to.x, v.x), select(valid, to.y, v.y), select(valid, to.z, v.z)};

@@ -24,7 +24,8 @@ UnitVector<T> mirrored(const UnitVector<T>& o, const UnitVector<T>& h) {
 
 /// The sample of a sampler whose density is its pdf(); empty unless `lit` and above the horizon.
 template <class T, class Sampler, class Mask>
-DirectionSample<T> with_density(const Sampler& sampler, const UnitVector<T>& i, const UnitVector<T>& o, const Mask& lit) {
+DirectionSample<T> with_density(const Sampler& sampler, const UnitVector<T>& i, const UnitVector<T>& o,
+                                const Mask& lit) {
   const auto valid = lit && i.z > T(0);
   // A direction that is dropped is replaced by the eye's, so that its density has nothing to overflow with.
   const UnitVector<T> safe{select(valid, i.x, o.x), select(valid, i.y, o.y), select(valid, i.z, o.z)};

@@ -43,7 +43,8 @@ struct AxisSampler {
     // A frame about v, v.z >= 0 (Duff et al. 2017, JCGT 6(1)).
     const T over = T(-1) / (T(1) + v.z), xy = v.x * v.y * over, x = sine * turn.cosine, y = sine * turn.sine;
     const UnitVector<T> i{v.x + (x * (T(1) + square(v.x) * over) + y * xy - fall * v.x),
-                          v.y + (x * xy + y * (T(1) + square(v.y) * over) - fall * v.y), v.z - (x * v.x + y * v.y + fall * v.z)};
+                          v.y + (x * xy + y * (T(1) + square(v.y) * over) - fall * v.y),
+                          v.z - (x * v.x + y * v.y + fall * v.z)};
     return with_density(*this, i, o, i.z > T(0));
   }
 
@@ -72,9 +73,10 @@ struct DiscSampler {
 
   DirectionSample<T> sample(const UnitVector<T>& o, const T&, const T& u1, const T& u2) const {
     using std::expm1, std::log, std::log1p, std::sqrt;
-    const T rho2 = kind == DiscKind::gaussian
-                       ? T(-log(u1) / b)
-                       : T(expm1(power_law_logarithm(T(T(1) - u1), T(T(1) - off_one(c)), T(log1p(T(b * farthest2(o)))))) / b);
+    const T rho2 =
+        kind == DiscKind::gaussian
+            ? T(-log(u1) / b)
+            : T(expm1(power_law_logarithm(T(T(1) - u1), T(T(1) - off_one(c)), T(log1p(T(b * farthest2(o)))))) / b);
     const T rho = sqrt(rho2);
     const SineCosine<T> turn = sine_cosine(T(T(2) * kPi<T> * u2));
     // cos_i² = cos_o² + ρ·(2·o_xy·(cos, sin) - ρ): no difference of near equals where o grazes.
@@ -115,13 +117,15 @@ struct AshikhminShirleySampler {
     const T along_x = select(leans, T(px * over), T(1)), along_y = select(leans, T(py * over), T(0));
     const T r2 = -log(u1);
     const SineCosine<T> azimuth = cavity_azimuth(T(sqrt(r2) * kappa / o.z), u2);
-    const T x = ax * (azimuth.cosine * along_x - azimuth.sine * along_y), y = ay * (azimuth.cosine * along_y + azimuth.sine * along_x);
+    const T x = ax * (azimuth.cosine * along_x - azimuth.sine * along_y),
+            y = ay * (azimuth.cosine * along_y + azimuth.sine * along_x);
     const T length2 = square(x) + square(y);  // 2/(n(φ) + 1)
     const T scale = sqrt(T(expm1(T(r2 * length2)) / length2));
     const UnitVector<T> h = normalised(T(x * scale), T(y * scale), T(1));
     const UnitVector<T> cosine = CosineSampler<T>{}.sample(o, u0, u1, u2).direction, facet = mirrored(o, h);
     const auto diffuse = u0 < diffuse_share;
-    const UnitVector<T> i{select(diffuse, cosine.x, facet.x), select(diffuse, cosine.y, facet.y), select(diffuse, cosine.z, facet.z)};
+    const UnitVector<T> i{select(diffuse, cosine.x, facet.x), select(diffuse, cosine.y, facet.y),
+                          select(diffuse, cosine.z, facet.z)};
     return with_density(*this, i, o, diffuse || dot(o, h) > T(0));
   }
 
@@ -155,7 +159,8 @@ struct KirchhoffSampler {
     const auto mirror = facets().sample(o, u0, u1, u2), wave = shares.waves.sample(o, u0, u1, u2);
     const auto uniform = HemisphereSampler<T>{}.sample(o, u0, u1, u2);
     const auto pick = [&](auto of) { return T(select(facet, of(mirror), T(select(rest, of(uniform), of(wave))))); };
-    const UnitVector<T> i{pick([](const auto& s) { return s.direction.x; }), pick([](const auto& s) { return s.direction.y; }),
+    const UnitVector<T> i{pick([](const auto& s) { return s.direction.x; }),
+                          pick([](const auto& s) { return s.direction.y; }),
                           pick([](const auto& s) { return s.direction.z; })};
     return with_density(*this, i, o, pick([](const auto& s) { return s.pdf_per_sr; }) > T(0));
   }
@@ -163,7 +168,8 @@ struct KirchhoffSampler {
   T pdf(const UnitVector<T>& i, const UnitVector<T>& o) const {
     const Shares shares = shares_at(o);
     const T uniform = uniform_share(), waves = T(1) - uniform - shares.facets;
-    return shares.facets * facets().pdf(i, o) + waves * shares.waves.pdf(i, o) + uniform * HemisphereSampler<T>{}.pdf(i, o);
+    return shares.facets * facets().pdf(i, o) + waves * shares.waves.pdf(i, o) +
+           uniform * HemisphereSampler<T>{}.pdf(i, o);
   }
 
   T alpha() const { return T(2) * sigma_um / correlation_um; }
@@ -178,13 +184,15 @@ struct KirchhoffSampler {
   Shares shares_at(const UnitVector<T>& o) const {
     const T g = square(T(T(4) * kPi<T> * sigma_um * o.z / wavelength_um));
     const T inverse_width2 = square(T(kPi<T> * correlation_um / wavelength_um)) / (T(1) + g);
-    return {smaller_of(larger_of(T(T(0.9) * g / (T(1) + g)), T(0.1)), T(0.8)), {inverse_width2, T(1), DiscKind::gaussian}};
+    return {smaller_of(larger_of(T(T(0.9) * g / (T(1) + g)), T(0.1)), T(0.8)),
+            {inverse_width2, T(1), DiscKind::gaussian}};
   }
   FacetSampler<T> facets() const { return facets_seen(alpha(), alpha(), SlopeKind::gaussian, Shadowing::none); }
 };
 
 /// The sampler of a lobe: each lobe names its own by `sampler()` (`sampler(wavelength_um)` where it diffracts).
 template <class T>
-using LobeSampler = std::variant<CosineSampler<T>, FacetSampler<T>, AxisSampler<T>, DiscSampler<T>, AshikhminShirleySampler<T>, KirchhoffSampler<T>>;
+using LobeSampler = std::variant<CosineSampler<T>, FacetSampler<T>, AxisSampler<T>, DiscSampler<T>,
+                                 AshikhminShirleySampler<T>, KirchhoffSampler<T>>;
 
 }  // namespace gonio

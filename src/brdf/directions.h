@@ -10,10 +10,10 @@ namespace gonio {
 /// it is never turned back into a sine.
 template <class T>
 struct Directions {
-  T cos_i, cos_o;    ///< with the mean normal, > 0
-  T cos_d;           ///< half vector with either direction
-  T tan2_h;          ///< half vector with the mean normal
-  T tan2_i, tan2_o;  ///< directions with the mean normal
+  T cos_i, cos_o;                                ///< with the mean normal, > 0
+  T cos_d;                                       ///< half vector with either direction
+  T tan2_h;                                      ///< half vector with the mean normal
+  T tan2_i, tan2_o;                              ///< directions with the mean normal
   T ix = T(0), iy = T(0), ox = T(0), oy = T(0);  ///< components in the mean plane, x along the grain
   T hx = T(0), hy = T(0);                        ///< of h = i + o, not normalised
 
@@ -84,17 +84,19 @@ T sin_deg(const T& angle_deg) {
 /// of the angles:
 ///   u² = (sin_i - sin_o)² + 4 sin_i sin_o sin²(δ/2), w = cos_i + cos_o, tan²θ_h = u²/w², 4cos²θ_d = u² + w².
 template <class T>
-Directions<T> directions_from_deg(const T& theta_i_deg, const T& theta_o_deg, const T& phi_deg, const T& phi_i_deg = T(0)) {
+Directions<T> directions_from_deg(const T& theta_i_deg, const T& theta_o_deg, const T& phi_deg,
+                                  const T& phi_i_deg = T(0)) {
   using std::abs, std::cos, std::fmod, std::sin, std::sqrt;
   const T to_radians = kPi<T> / T(180);
   T turned_deg = fmod(phi_deg, T(360));  // into (-180, 180], so that δ is small on the mirror side whatever the turn
-  turned_deg = select(turned_deg > T(180), turned_deg - T(360), select(turned_deg <= T(-180), turned_deg + T(360), turned_deg));
+  turned_deg =
+      select(turned_deg > T(180), turned_deg - T(360), select(turned_deg <= T(-180), turned_deg + T(360), turned_deg));
   const T delta_deg = select(turned_deg > T(0), turned_deg - T(180), turned_deg + T(180));
   const T sin_i = sin_deg(theta_i_deg), sin_o = sin_deg(theta_o_deg);
   const T cos_i = cos_deg(theta_i_deg), cos_o = cos_deg(theta_o_deg);
-  const T half_sum = T(0.5) * ((T(90) - theta_i_deg) + (T(90) - theta_o_deg));  // 90° - mean: its sine is the mean's cosine
-  const T sine_difference =
-      T(2) * sin(half_sum * to_radians) * sin(T(0.5) * (theta_i_deg - theta_o_deg) * to_radians);
+  const T half_sum =
+      T(0.5) * ((T(90) - theta_i_deg) + (T(90) - theta_o_deg));  // 90° - mean: its sine is the mean's cosine
+  const T sine_difference = T(2) * sin(half_sum * to_radians) * sin(T(0.5) * (theta_i_deg - theta_o_deg) * to_radians);
   const T half_sine2 = square(T(sin(T(0.5) * delta_deg * to_radians)));
   const T u2 = square(sine_difference) + T(4) * sin_i * sin_o * half_sine2;
   const T w = cos_i + cos_o;
@@ -102,8 +104,18 @@ Directions<T> directions_from_deg(const T& theta_i_deg, const T& theta_o_deg, co
   const T h_in = sine_difference + T(2) * sin_o * half_sine2, h_across = -sin_o * sin(delta_deg * to_radians);
   const T c = cos(phi_i_deg * to_radians), s = sin(phi_i_deg * to_radians);
   const T ix = sin_i * c, iy = sin_i * s, hx = h_in * c - h_across * s, hy = h_in * s + h_across * c;
-  return {cos_i, cos_o, T(0.5) * T(sqrt(u2 + square(w))), u2 / square(w), square(sin_i / cos_i), square(sin_o / cos_o),
-          ix,    iy,    hx - ix,                          hy - iy,        hx,                    hy};
+  return {cos_i,
+          cos_o,
+          T(0.5) * T(sqrt(u2 + square(w))),
+          u2 / square(w),
+          square(sin_i / cos_i),
+          square(sin_o / cos_o),
+          ix,
+          iy,
+          hx - ix,
+          hy - iy,
+          hx,
+          hy};
 }
 
 }  // namespace gonio

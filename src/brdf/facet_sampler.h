@@ -27,7 +27,8 @@ struct FacetSampler {
 
   T pdf(const UnitVector<T>& i, const UnitVector<T>& o) const {
     const Directions<T> w = reduce(i.x, i.y, i.z, o.x, o.y, o.z);
-    const T over = T(1) / (w.cos_i + w.cos_o), slopes = square(T(w.hx * over / alpha_x)) + square(T(w.hy * over / alpha_y));
+    const T over = T(1) / (w.cos_i + w.cos_o),
+            slopes = square(T(w.hx * over / alpha_x)) + square(T(w.hy * over / alpha_y));
     const T d = law.density(slopes) * square(T(1) + w.tan2_h) / (alpha_x * alpha_y);
     if (visibility == Visibility::smith) return T(0.25) * d / area(o);
     return T(0.25) * d * smaller_of(T(T(1) / o.z), T(T(2) * w.cos_h() / w.cos_d));
@@ -51,7 +52,8 @@ struct FacetSampler {
       towards = r * azimuth.cosine;
       across = r * azimuth.sine;
     }
-    return normalised(T(alpha_x * (towards * along_x - across * along_y)), T(alpha_y * (towards * along_y + across * along_x)), T(1));
+    return normalised(T(alpha_x * (towards * along_x - across * along_y)),
+                      T(alpha_y * (towards * along_y + across * along_x)), T(1));
   }
 
   /// The surface's projected area as Smith has it, o_z·(1 + Λ), ∫ D·max(0, o·h) dω_h.

@@ -18,7 +18,9 @@ struct Ggx {
   Shadowing shadowing = Shadowing::smith_correlated;
 
   /// α²tan²θ of a direction.
-  T stretched(const T& x, const T& y, const T& z) const { return (square(alpha_x * x) + square(alpha_y * y)) / square(z); }
+  T stretched(const T& x, const T& y, const T& z) const {
+    return (square(alpha_x * x) + square(alpha_y * y)) / square(z);
+  }
 
   /// ½(√(1+s) - 1) without cancellation at the normal.
   static T lambda(const T& s) {

@@ -35,7 +35,8 @@ struct HeTorrance {
   /// Share of the surface that a direction sees.
   T shadowing(const T& tan2) const {
     const T s = slope_ratio(tan2), hidden = erfc_of_inverse(s);
-    const T lambda = reading == HeReading::lambda_without_exponential ? T(0.5) * (s / kSqrtPi<T> - hidden) : smith_lambda_core(s);
+    const T lambda =
+        reading == HeReading::lambda_without_exponential ? T(0.5) * (s / kSqrtPi<T> - hidden) : smith_lambda_core(s);
     return (T(1) - T(0.5) * hidden) / (T(1) + lambda);
   }
 

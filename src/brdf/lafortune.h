@@ -37,7 +37,8 @@ struct Lafortune {
     const T s = plain_sum(w) / largest;
     const auto lit = !low || s > T(0);
     const T log_s = select(low, T(log(select(low && lit, s, T(1)))), T(log1p(select(low, T(0), x))));
-    if (form == LafortuneForm::normalised) return select(lit, scaled_exp(T((n + T(2)) / (T(2) * kPi<T>)), T(-n * log_s)), T(0));
+    if (form == LafortuneForm::normalised)
+      return select(lit, scaled_exp(T((n + T(2)) / (T(2) * kPi<T>)), T(-n * log_s)), T(0));
     return select(lit, T(fast_exp(T(n * (log_s + log(largest))))), T(0));
   }
 
@@ -55,7 +56,8 @@ struct Lafortune {
   T plain_sum(const Directions<G>& w) const {
     const TwoTerms<T> x = product_of(c_x, T(-w.ix)), y = product_of(c_y, T(-w.iy)), z = product_of(c_z, T(w.cos_i));
     const T ox(w.ox), oy(w.oy), oz(w.cos_o);
-    return sum_of_products(std::array<T, 6>{z.value, x.value, y.value, z.rest, x.rest, y.rest}, std::array<T, 6>{oz, ox, oy, oz, ox, oy});
+    return sum_of_products(std::array<T, 6>{z.value, x.value, y.value, z.rest, x.rest, y.rest},
+                           std::array<T, 6>{oz, ox, oy, oz, ox, oy});
   }
 };
 

@@ -16,25 +16,74 @@ std::vector<ModelInfo> thesis_models() {
   lambert_kd.meaning = "directional reflectance";
   const std::vector<std::string_view> exact{"exact"};
   return {
-      {ModelId::lambert, "lambert", "diffuse reflector", "f = kd/pi", "Lambert 1760", {lambert_kd}, {}, exact, true, true, true, false},
-      {ModelId::pseudo_realistic, "pseudo-realistic", "Maillot's pseudo-realistic model (31)",
+      {ModelId::lambert,
+       "lambert",
+       "diffuse reflector",
+       "f = kd/pi",
+       "Lambert 1760",
+       {lambert_kd},
+       {},
+       exact,
+       true,
+       true,
+       true,
+       false},
+      {ModelId::pseudo_realistic,
+       "pseudo-realistic",
+       "Maillot's pseudo-realistic model (31)",
        "f = kd R0/pi + ks G R(cos_d) P(zeta_h)/(4 cos_i cos_o), P = exp(-tan^2/(2m^2))/(m sqrt(2 pi) cos^2)",
-       "Maillot 1996, eq. (31)", {kSlope, kKd, kKs}, {}, exact, true, false, true, false},
-      {ModelId::torrance_sparrow, "torrance-sparrow", "Torrance-Sparrow with normalised Beckmann density",
-       "f = kd/pi + ks D G F(cos_d)/(4 cos_i cos_o)", "Torrance & Sparrow 1967, doi:10.1364/JOSA.57.001105",
-       {kSlope, kKd, kKs}, {"v-cavity", "smith-separable", "smith-correlated", "smith-1967", "none"},
-       {"exact", "schlick-f", "schlick-d", "schlick-g", "schlick", "walter-g", "erfcx", "erfc", "tabulated"}, true, true, true, false},
-      {ModelId::beckmann_kirchhoff, "beckmann-kirchhoff", "Beckmann-Kirchhoff diffraction (18a), incoherent part + coherent energy",
+       "Maillot 1996, eq. (31)",
+       {kSlope, kKd, kKs},
+       {},
+       exact,
+       true,
+       false,
+       true,
+       false},
+      {ModelId::torrance_sparrow,
+       "torrance-sparrow",
+       "Torrance-Sparrow with normalised Beckmann density",
+       "f = kd/pi + ks D G F(cos_d)/(4 cos_i cos_o)",
+       "Torrance & Sparrow 1967, doi:10.1364/JOSA.57.001105",
+       {kSlope, kKd, kKs},
+       {"v-cavity", "smith-separable", "smith-correlated", "smith-1967", "none"},
+       {"exact", "schlick-f", "schlick-d", "schlick-g", "schlick", "walter-g", "erfcx", "erfc", "tabulated"},
+       true,
+       true,
+       true,
+       false},
+      {ModelId::beckmann_kirchhoff,
+       "beckmann-kirchhoff",
+       "Beckmann-Kirchhoff diffraction (18a), incoherent part + coherent energy",
        "f = kd/pi + ks R(cos_d) pi T^2 F'^2/(lambda^2 cos_i cos_o) sum_j Pois(j;g)/j exp(-v_xy^2 T^2/(4j)); "
        "nieto-vesperinas-1982: times (cos_i/cos_o)^2",
        "Beckmann & Spizzichino 1963; Maillot 1996, eq. (18a)",
        {{"sigma_um", "um", "height rms", 1e-4, 1e3, 0.02, 5, std::nullopt},
-        {"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100, std::nullopt},
-        kKd, kKs},
-       {}, {"exact", "rough-limit", "smooth-limit", "nieto-vesperinas-1982", "outwards", "series-10", "series-40", "gauss-12"}, true, false, false, true, {"nieto-vesperinas-1982"}},
-      {ModelId::stogryn_1967, "stogryn-1967", "Very rough surfaces of finite conductivity, R by polarisation at half the angle between i and o",
-       "f = kd/pi + ks R(cos_d) D/(4 cos_i cos_o), Beckmann's D; in-plane-s, -p: R_s, R_p of light in the plane of incidence",
-       "Stogryn 1967; Maillot 1996, I.2.3.4", {kSlope, kKd, kKs}, {}, {"exact", "in-plane-s", "in-plane-p"}, true, false, false, false},
+        {"correlation_um", "um", "correlation length T (1/e of the autocorrelation)", 1e-2, 1e5, 0.5, 100,
+         std::nullopt},
+        kKd,
+        kKs},
+       {},
+       {"exact", "rough-limit", "smooth-limit", "nieto-vesperinas-1982", "outwards", "series-10", "series-40",
+        "gauss-12"},
+       true,
+       false,
+       false,
+       true,
+       {"nieto-vesperinas-1982"}},
+      {ModelId::stogryn_1967,
+       "stogryn-1967",
+       "Very rough surfaces of finite conductivity, R by polarisation at half the angle between i and o",
+       "f = kd/pi + ks R(cos_d) D/(4 cos_i cos_o), Beckmann's D; in-plane-s, -p: R_s, R_p of light in the plane of "
+       "incidence",
+       "Stogryn 1967; Maillot 1996, I.2.3.4",
+       {kSlope, kKd, kKs},
+       {},
+       {"exact", "in-plane-s", "in-plane-p"},
+       true,
+       false,
+       false,
+       false},
   };
 }
 
@@ -43,14 +92,16 @@ std::vector<ModelInfo> thesis_models() {
 const std::vector<ModelInfo>& models() {
   static const std::vector<ModelInfo> all = [] {
     std::vector<ModelInfo> list = thesis_models();
-    for (const auto& family : {faceted_models(), classical_models(), empirical_models()}) list.insert(list.end(), family.begin(), family.end());
+    for (const auto& family : {faceted_models(), classical_models(), empirical_models()})
+      list.insert(list.end(), family.begin(), family.end());
     return list;
   }();
   return all;
 }
 
 const ModelInfo& model(ModelId id) {
-  const auto found = std::find_if(models().begin(), models().end(), [&](const ModelInfo& info) { return info.id == id; });
+  const auto found =
+      std::find_if(models().begin(), models().end(), [&](const ModelInfo& info) { return info.id == id; });
   return *found;  // every id is listed: tests/brdf/models_test.cpp
 }
 
@@ -115,8 +166,8 @@ void check_values(const ModelSpec& spec, std::span<const double> values) {
   check_values(spec.info(), values);
   const bool rational_d = spec.variant() == "schlick-d" || spec.variant() == "schlick";
   if (rational_d && values[0] > 0.5)
-    throw input_error("m={}: Schlick's D diverges there; expected m up to 0.5 (alpha up to 1/sqrt(2)) with variant {}", values[0],
-                      spec.variant());
+    throw input_error("m={}: Schlick's D diverges there; expected m up to 0.5 (alpha up to 1/sqrt(2)) with variant {}",
+                      values[0], spec.variant());
 }
 
 }  // namespace gonio

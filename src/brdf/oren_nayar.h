@@ -43,7 +43,8 @@ struct OrenNayar {
 
   template <class G>
   T full(const Directions<G>& w, const T& cos_i, const T& cos_o, const T& s2, const T& in_plane) const {
-    const T sin_i = safe_sqrt(T(square(T(w.ix)) + square(T(w.iy)))), sin_o = safe_sqrt(T(square(T(w.ox)) + square(T(w.oy))));
+    const T sin_i = safe_sqrt(T(square(T(w.ix)) + square(T(w.iy)))),
+            sin_o = safe_sqrt(T(square(T(w.ox)) + square(T(w.oy))));
     const T sin_a = larger_of(sin_i, sin_o), sin_b = smaller_of(sin_i, sin_o);
     const T cos_a = smaller_of(cos_i, cos_o), cos_b = larger_of(cos_i, cos_o), tan_b = sin_b / cos_b;
     const T alpha = angle(sin_a, cos_a), beta = angle(sin_b, cos_b);
@@ -51,7 +52,8 @@ struct OrenNayar {
     const T sines = larger_of(T(sin_i * sin_o), T(1e-30));
     const T cos_phi = larger_of(T(-1), smaller_of(T(1), T(in_plane / sines)));
     const T size_phi = larger_of(cos_phi, T(-cos_phi));
-    const T across = sum_of_products(std::array<T, 2>{T(w.ix), T(-w.iy)}, std::array<T, 2>{T(w.oy), T(w.ox)}) / sines, aside = square(across) / (T(1) + size_phi);
+    const T across = sum_of_products(std::array<T, 2>{T(w.ix), T(-w.iy)}, std::array<T, 2>{T(w.oy), T(w.ox)}) / sines,
+            aside = square(across) / (T(1) + size_phi);
     const T two_beta = T(2) * beta / kPi<T>, wide = s2 / (s2 + T(0.09));
     const T c1 = T(1) - T(0.5) * s2 / (s2 + T(0.33));
     // sin α - (2β/π)³ = (1 - (2β/π)³) - cos²α/(1 + sin α), with 1 - 2β/π from the other angle.

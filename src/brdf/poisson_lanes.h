@@ -18,7 +18,8 @@ template <class S>
 struct LaneSeries {
   static constexpr double turn = 32, narrowest = 1.8, step = 0.86, cut = 1e-12;
   static constexpr int before = 10, after = 8;  ///< nodes on either side of X
-  static constexpr int power = 90;              ///< the sum is 2^power times as large, and keeps the tails that a prefactor of 1e24 brings back
+  static constexpr int power =
+      90;  ///< the sum is 2^power times as large, and keeps the tails that a prefactor of 1e24 brings back
 };
 template <>
 struct LaneSeries<float> {
@@ -55,7 +56,8 @@ T sum_by_terms(const T& g, const T& b, const V& peak, const decltype(V(0) < V(1)
     weight = weight * (g * T(kSeriesStep<S>[std::size_t(j)]));
     const T term = weight * exp_of_decay<kHalf>(T(minus_b * T(kSeriesInverse<S>[std::size_t(j)])));
     sum += term;
-    if ((j & 3) == 0 && !any(here && (V(S(j)) < most || value_of(term) > V(S(LaneSeries<S>::cut)) * value_of(sum)))) break;
+    if ((j & 3) == 0 && !any(here && (V(S(j)) < most || value_of(term) > V(S(LaneSeries<S>::cut)) * value_of(sum))))
+      break;
   }
   return sum;
 }
@@ -64,8 +66,10 @@ T sum_by_terms(const T& g, const T& b, const V& peak, const decltype(V(0) < V(1)
 /// for every X >= turn.
 template <class V>
 V deviance_of_root(const V& delta) {
-  if constexpr (std::is_same_v<scalar_t<V>, float>) return square(delta) * polynomial(delta, kDevianceFloat);
-  else return square(delta) * polynomial(delta, kDeviance);
+  if constexpr (std::is_same_v<scalar_t<V>, float>)
+    return square(delta) * polynomial(delta, kDevianceFloat);
+  else
+    return square(delta) * polynomial(delta, kDeviance);
 }
 
 /// The trapezoidal rule about X. At x = X·u, u = (1+δ)², dx = 2X(1+δ)dδ, the logarithm of a term is, beside constants,
@@ -76,15 +80,18 @@ T sum_by_nodes(const T& g, const T& b, const SeriesPeak<V>& peak) {
   using S = scalar_t<V>;
   using Rule = LaneSeries<S>;
   const auto all = [](double x) { return V(S(x)); };
-  const V g0 = value_of(g), b0 = value_of(b), one = all(1), inverse = one / peak.x, inverse2 = square(inverse), tilt = b0 * inverse2;
+  const V g0 = value_of(g), b0 = value_of(b), one = all(1), inverse = one / peak.x, inverse2 = square(inverse),
+          tilt = b0 * inverse2;
   const V step = all(0.5 * Rule::step) * sqrt(inverse / (one + all(2) * tilt));  // of δ, half of that of x/X
-  const V s1 = multiply_add(b0, inverse, inverse * all(1.0 / 12)), s3 = inverse * inverse2 * all(-1.0 / 360), s5 = s3 * inverse2 * all(-2.0 / 7);
+  const V s1 = multiply_add(b0, inverse, inverse * all(1.0 / 12)), s3 = inverse * inverse2 * all(-1.0 / 360),
+          s5 = s3 * inverse2 * all(-2.0 / 7);
   T sum = T(S(0));
   for (int k = -Rule::before; k <= Rule::after; ++k) {
     const V delta = all(k) * step, root = one + delta, u = square(root), r = one / u;
     V whole = s1;  // of b/x + stirling(x)
     if constexpr (!std::is_same_v<S, float>) whole = multiply_add(square(r), multiply_add(square(r), s5, s3), s1);
-    const V fall = multiply_add(peak.x, multiply_add(peak.c, u, deviance_of_root(delta)), multiply_add(r, whole, V(-peak.offset)));
+    const V fall =
+        multiply_add(peak.x, multiply_add(peak.c, u, deviance_of_root(delta)), multiply_add(r, whole, V(-peak.offset)));
     if constexpr (std::is_same_v<T, V>) {
       sum += r * exp_of_decay<Rule::power>(V(-fall));
     } else {  // the nodes and X carry no derivatives: g and b do

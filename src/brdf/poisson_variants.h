@@ -17,8 +17,7 @@ T poisson_lobe_fixed_terms(const T& g, const T& b, const T& scale, int terms) {
   using std::log;
   const T log_g = log(g), half(0x1p-45);  // terms 2^90 times as large, for the range of float
   T sum(0);
-  for (int j = 1; j <= terms; ++j)
-    sum += exp_of_decay<90>(T(log_g * T(j) - g - log_of_term<T>(j) - b / T(j)));
+  for (int j = 1; j <= terms; ++j) sum += exp_of_decay<90>(T(log_g * T(j) - g - log_of_term<T>(j) - b / T(j)));
   return sum * half * scale * half;
 }
 
@@ -58,7 +57,8 @@ T poisson_lobe_gauss(const T& g, const T& b, const T& scale) {
       squares = T(1);
       for (int n = 0; n < kNodes; ++n) {
         const T down = sqrt(T(n) * mean), up = T(1) / sqrt(T(n + 1) * mean), shift = d - T(n);
-        const T next = (shift * now - down * before) * up, slope_next = (now + shift * slope - down * slope_before) * up;
+        const T next = (shift * now - down * before) * up,
+                slope_next = (now + shift * slope - down * slope_before) * up;
         before = now, now = next, slope_before = slope, slope = slope_next;
         if (n < kNodes - 1) squares += square(now);
       }

@@ -58,10 +58,12 @@ struct FacetTurn {
 };
 template <class T>
 FacetTurn<T> facet_turn(const Directions<T>& w, const Azimuth<T>& azimuth) {
-  const T sines = safe_sqrt(T((square(w.ix) + square(w.iy)) * (square(w.ox) + square(w.oy)))), cosines = w.cos_i * w.cos_o;
+  const T sines = safe_sqrt(T((square(w.ix) + square(w.iy)) * (square(w.ox) + square(w.oy)))),
+          cosines = w.cos_i * w.cos_o;
   // 2cos²θ_d - (1 + cos φ)(1 + C_i·C_o + S_i·S_o): the form above would cancel where both directions graze.
-  return {T(2) * square(w.cos_d) - azimuth.one_plus_cos * ((T(1) + cosines) + sines), (w.cos_i + w.cos_o) * azimuth.sin_phi,
-          sines - (T(1) - cosines) * azimuth.cos_phi(), (w.cos_i - w.cos_o) * azimuth.sin_phi};
+  return {T(2) * square(w.cos_d) - azimuth.one_plus_cos * ((T(1) + cosines) + sines),
+          (w.cos_i + w.cos_o) * azimuth.sin_phi, sines - (T(1) - cosines) * azimuth.cos_phi(),
+          (w.cos_i - w.cos_o) * azimuth.sin_phi};
 }
 
 /// The facet's Jones matrix but for a factor; never 0.
@@ -86,7 +88,8 @@ template <class T>
 Jones<T> refraction_jones(const UnitVector<T>& i, const UnitVector<T>& o, const Azimuth<T>& azimuth) {
   const T sines = safe_sqrt(T((square(i.x) + square(i.y)) * (square(o.x) + square(o.y)))), cos_phi = azimuth.cos_phi();
   const auto real = [](const T& x) { return Complex<T>{x, T(0)}; };
-  return {real(T(sines + i.z * o.z * cos_phi)), real(T(-o.z * azimuth.sin_phi)), real(T(-i.z * azimuth.sin_phi)), real(T(-cos_phi))};
+  return {real(T(sines + i.z * o.z * cos_phi)), real(T(-o.z * azimuth.sin_phi)), real(T(-i.z * azimuth.sin_phi)),
+          real(T(-cos_phi))};
 }
 
 /// Mueller matrix divided by its m11. (Where R = 0 for want of a contrast it is the limit as the contrast vanishes.)
@@ -123,8 +126,8 @@ bool states_polarisation(const Brdf<T>& brdf) {
 /// The BRDF as a Mueller matrix, 1/sr, of a model that states polarisation; m11 is evaluate() of the same. `lobe_per_sr` is added
 /// to its lobe (the coherent part of a patch).
 template <class T, class G>
-Mueller<T> evaluate_mueller(const Brdf<T>& brdf, const Directions<G>& w, const Azimuth<G>& azimuth, const Interface<T>& surface,
-                            const T& wavelength_um, const T& lobe_per_sr = T(0)) {
+Mueller<T> evaluate_mueller(const Brdf<T>& brdf, const Directions<G>& w, const Azimuth<G>& azimuth,
+                            const Interface<T>& surface, const T& wavelength_um, const T& lobe_per_sr = T(0)) {
   const T lobe = evaluate_lobe(brdf, w, surface, wavelength_um) + lobe_per_sr;
   Mueller<T> f = lobe * (brdf.facets() ? facet_polarisation(w, azimuth, surface) : depolariser<T>());
   f.m[0][0] = evaluate_diffuse(brdf, surface) + lobe;

@@ -32,7 +32,8 @@ RefractingFacet<T> refracting_facet(const UnitVector<T>& i, const UnitVector<T>&
   };
   const TwoTerms<T> x = component(i.x, o.x), y = component(i.y, o.y), z = component(i.z, o.z);
   const auto along = [&](const UnitVector<T>& v) {
-    const TwoTerms<T> sum = sum_of(sum_of(product_of(v.x, x.value), product_of(v.y, y.value)), product_of(v.z, z.value));
+    const TwoTerms<T> sum =
+        sum_of(sum_of(product_of(v.x, x.value), product_of(v.y, y.value)), product_of(v.z, z.value));
     return T(sum.value + (sum.rest + (v.x * x.rest + v.y * y.rest + v.z * z.rest)));
   };
   const T hx = x.value + x.rest, hy = y.value + y.rest, hz = z.value + z.rest;

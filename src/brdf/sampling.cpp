@@ -12,7 +12,9 @@ SlopeExtent extent(const AxisSampler<double>& one) {
   return {width, width, false};
 }
 SlopeExtent extent(const CosineSampler<double>&) { return {1, 1, false}; }
-SlopeExtent extent(const FacetSampler<double>& one) { return {one.widest(), one.narrowest(), one.law.kind == SlopeKind::gaussian}; }
+SlopeExtent extent(const FacetSampler<double>& one) {
+  return {one.widest(), one.narrowest(), one.law.kind == SlopeKind::gaussian};
+}
 SlopeExtent extent(const DiscSampler<double>& one) {
   const double width = 1 / std::sqrt(1 + 4 * one.b);
   return {width, width, false};

@@ -13,9 +13,12 @@ template <class T>
 LobeSampler<T> lobe_sampler(const Lobe<T>& lobe, const T& wavelength_um) {
   return std::visit(
       [&]<class L>(const L& one) -> LobeSampler<T> {
-        if constexpr (std::is_same_v<L, Lambert> || std::is_same_v<L, Mirror>) return CosineSampler<T>{};
-        else if constexpr (L::kDiffracts) return one.sampler(wavelength_um);
-        else return one.sampler();
+        if constexpr (std::is_same_v<L, Lambert> || std::is_same_v<L, Mirror>)
+          return CosineSampler<T>{};
+        else if constexpr (L::kDiffracts)
+          return one.sampler(wavelength_um);
+        else
+          return one.sampler();
       },
       lobe);
 }
@@ -41,7 +44,8 @@ struct LobeMixture {
     DirectionSample<T> of_lobe = std::visit([&](const auto& one) { return one.sample(o, inner, u1, u2); }, lobe);
     if (retro) of_lobe.direction = turned(of_lobe.direction);
     const UnitVector<T> cosine = CosineSampler<T>{}.sample(o, u0, u1, u2).direction, &other = of_lobe.direction;
-    const UnitVector<T> i{select(diffuse, cosine.x, other.x), select(diffuse, cosine.y, other.y), select(diffuse, cosine.z, other.z)};
+    const UnitVector<T> i{select(diffuse, cosine.x, other.x), select(diffuse, cosine.y, other.y),
+                          select(diffuse, cosine.z, other.z)};
     return with_density(*this, i, o, diffuse || of_lobe.pdf_per_sr > T(0));
   }
 
@@ -83,7 +87,10 @@ template <class T>
 class BrdfSampler {
  public:
   BrdfSampler(const Brdf<T>& brdf, const Interface<T>& surface, const T& wavelength_um)
-      : brdf_(brdf), surface_(surface), wavelength_um_(wavelength_um), mixture_(lobe_mixture(brdf, T(surface.r0()), wavelength_um)) {}
+      : brdf_(brdf),
+        surface_(surface),
+        wavelength_um_(wavelength_um),
+        mixture_(lobe_mixture(brdf, T(surface.r0()), wavelength_um)) {}
 
   /// Empty when the drawn direction lies below the horizon (it carries nothing).
   std::optional<BrdfSample<T>> sample(const UnitVector<T>& o, const T& u0, const T& u1, const T& u2) const {
@@ -110,7 +117,8 @@ class BrdfSampler {
   T delta_share(const T& cos_o) const {
     const T coherent = coherent_energy(brdf_, cos_o, surface_, wavelength_um_);
     if (!(coherent > T(1e-9))) return T(0);
-    const T diffuse = brdf_.kd, rest = std::holds_alternative<Mirror>(brdf_.lobe) ? T(0) : T(brdf_.ks * surface_.r0() - coherent);
+    const T diffuse = brdf_.kd,
+            rest = std::holds_alternative<Mirror>(brdf_.lobe) ? T(0) : T(brdf_.ks * surface_.r0() - coherent);
     if (!(diffuse + rest > T(0))) return std::holds_alternative<Mirror>(brdf_.lobe) ? T(1) : T(0.9);
     return larger_of(T(0.05), smaller_of(T(0.9), T(coherent / (diffuse + coherent + rest))));
   }

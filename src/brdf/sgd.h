@@ -58,7 +58,8 @@ struct ShiftedGamma {
     // In two halves: exp of the whole would leave float's range long before f does.
     const T half = exp(T(0.5) * (-tau - p * log(tau)) + log1p(t));
     const T d = k_norm / kPi<T> * half;
-    const T rest = facet(w) * g1(T(w.ix), T(w.iy), T(w.cos_i)) * g1(T(w.ox), T(w.oy), T(w.cos_o)) / (kPi<T> * T(w.cos_i) * T(w.cos_o));
+    const T rest = facet(w) * g1(T(w.ix), T(w.iy), T(w.cos_i)) * g1(T(w.ox), T(w.oy), T(w.cos_o)) /
+                   (kPi<T> * T(w.cos_i) * T(w.cos_o));
     return d * rest * half;
   }
 };

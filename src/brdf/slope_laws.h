@@ -38,9 +38,12 @@ struct SlopeLaw {
   T radius2(const T& u) const {
     using std::expm1, std::log, std::log1p, std::sqrt;
     switch (kind) {
-      case SlopeKind::gaussian: return -log(u);
-      case SlopeKind::ggx: return (T(1) - u) / u;
-      case SlopeKind::power: return expm1(T(-log(u) / a));
+      case SlopeKind::gaussian:
+        return -log(u);
+      case SlopeKind::ggx:
+        return (T(1) - u) / u;
+      case SlopeKind::power:
+        return expm1(T(-log(u) / a));
       case SlopeKind::angle_gaussian: {
         using std::cos, std::sin;
         const T zeta = sqrt(T(-log1p(T((u - T(1)) * within_right_angle())))) / a;
@@ -63,9 +66,12 @@ struct SlopeLaw {
   T density(const T& r2) const {
     using std::exp, std::log1p, std::sqrt;
     switch (kind) {
-      case SlopeKind::gaussian: return fast_exp(T(-r2)) / kPi<T>;
-      case SlopeKind::ggx: return T(1) / (kPi<T> * square(T(1) + r2));
-      case SlopeKind::power: return a / kPi<T> * fast_exp(T(-(a + T(1)) * log1p(r2)));
+      case SlopeKind::gaussian:
+        return fast_exp(T(-r2)) / kPi<T>;
+      case SlopeKind::ggx:
+        return T(1) / (kPi<T> * square(T(1) + r2));
+      case SlopeKind::power:
+        return a / kPi<T> * fast_exp(T(-(a + T(1)) * log1p(r2)));
       case SlopeKind::angle_gaussian: {
         using std::atan;
         const T r = sqrt(larger_of(r2, T(1e-20))), zeta = atan(r);
@@ -89,10 +95,14 @@ struct SlopeLaw {
   T width() const {
     using std::sqrt;
     switch (kind) {
-      case SlopeKind::power: return T(1) / sqrt(a);
-      case SlopeKind::angle_gaussian: return smaller_of(T(1), T(T(1) / a));
-      case SlopeKind::abc: return T(1) / sqrt(T(1) + T(0.5) * a);
-      default: return T(1);
+      case SlopeKind::power:
+        return T(1) / sqrt(a);
+      case SlopeKind::angle_gaussian:
+        return smaller_of(T(1), T(T(1) / a));
+      case SlopeKind::abc:
+        return T(1) / sqrt(T(1) + T(0.5) * a);
+      default:
+        return T(1);
     }
   }
 

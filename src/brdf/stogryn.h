@@ -44,7 +44,8 @@ struct Stogryn {
 /// q_ip, q_is the incident light's p and s; the printed divisor (of q_rp, q_rs on q_i) is the same, |i×o|².
 /// As i → o (retro-reflection, 0/0) both are R at normal incidence. sin_phi, cos_phi: azimuth of o less that of i.
 template <class T>
-Polarised<T> stogryn_out_of_plane(const Directions<T>& w, const T& sin_phi, const T& cos_phi, const Interface<T>& surface) {
+Polarised<T> stogryn_out_of_plane(const Directions<T>& w, const T& sin_phi, const T& cos_phi,
+                                  const Interface<T>& surface) {
   using std::sqrt;
   const T sin_i = sqrt(square(w.ix) + square(w.iy)), sin_o = sqrt(square(w.ox) + square(w.oy));
   const T p_o = square(w.cos_i * sin_o * cos_phi - sin_i * w.cos_o), s_o = square(sin_o * sin_phi), sum = p_o + s_o;

@@ -25,7 +25,8 @@ struct TorranceSparrow {
   bool schlick_fresnel = false;
 
   FacetSampler<T> sampler() const {
-    const bool other_masking = form == FacetForm::schlick_g || form == FacetForm::schlick || form == FacetForm::walter_g;
+    const bool other_masking =
+        form == FacetForm::schlick_g || form == FacetForm::schlick || form == FacetForm::walter_g;
     return facets_seen(alpha, alpha, SlopeKind::gaussian, other_masking ? Shadowing::smith_separable : shadowing);
   }
 
@@ -45,12 +46,16 @@ struct TorranceSparrow {
   Ratio<T> masking(const Directions<G>& w) const {
     switch (form) {
       case FacetForm::schlick_g:
-      case FacetForm::schlick: return whole(T(schlick_g1(T(w.cos_i), alpha) * schlick_g1(T(w.cos_o), alpha)));
-      case FacetForm::walter_g: return whole(T(walter_g1(T(w.tan2_i), alpha) * walter_g1(T(w.tan2_o), alpha)));
+      case FacetForm::schlick:
+        return whole(T(schlick_g1(T(w.cos_i), alpha) * schlick_g1(T(w.cos_o), alpha)));
+      case FacetForm::walter_g:
+        return whole(T(walter_g1(T(w.tan2_i), alpha) * walter_g1(T(w.tan2_o), alpha)));
       case FacetForm::erfcx:
       case FacetForm::erfc:
-      case FacetForm::tabulated: return from_lambda(lambda(T(w.tan2_i)), lambda(T(w.tan2_o)), w);
-      default: return shadowing_masking<T>(shadowing, w, alpha);
+      case FacetForm::tabulated:
+        return from_lambda(lambda(T(w.tan2_i)), lambda(T(w.tan2_o)), w);
+      default:
+        return shadowing_masking<T>(shadowing, w, alpha);
     }
   }
   T lambda(const T& tan2) const {

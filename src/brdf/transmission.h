@@ -22,15 +22,16 @@ UnitVector<T> direction_from_deg(const T& theta_deg, const Azimuth<T>& phi) {
 /// f_t in sr⁻¹, for radiance, from i (z > 0) to o (z < 0): ks·lobe, nothing of the diffuse part. The interface is taken as
 /// transparent, its n that of the far over the near side.
 template <class T>
-T evaluate_transmission(const Brdf<T>& brdf, const UnitVector<T>& i, const UnitVector<T>& o, const Interface<T>& surface) {
+T evaluate_transmission(const Brdf<T>& brdf, const UnitVector<T>& i, const UnitVector<T>& o,
+                        const Interface<T>& surface) {
   const auto* dielectric = std::get_if<RoughDielectric<T>>(&brdf.lobe);
   return dielectric && !surface.perfect ? brdf.ks * dielectric->transmission(i, o, surface.n) : T(0);
 }
 
 /// The same as a Mueller matrix, between the frames of the mean plane (brdf/polarised.h).
 template <class T>
-Mueller<T> transmission_mueller(const Brdf<T>& brdf, const UnitVector<T>& i, const UnitVector<T>& o, const Azimuth<T>& azimuth,
-                                const Interface<T>& surface) {
+Mueller<T> transmission_mueller(const Brdf<T>& brdf, const UnitVector<T>& i, const UnitVector<T>& o,
+                                const Azimuth<T>& azimuth, const Interface<T>& surface) {
   return evaluate_transmission(brdf, i, o, surface) * normalised_mueller(refraction_jones(i, o, azimuth));
 }
 

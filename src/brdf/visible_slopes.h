@@ -101,7 +101,8 @@ T visible_gaussian_slope(const T& o_z, const T& kappa, const T& area, const T& u
   const T flat = o_z / area, tilted = kappa / (T(2) * kSqrtPi<T> * area);
   const T exp_end = fast_exp(T(-square(end))), beyond = half_erfc(end, exp_end);
   const T grazing_share = T(1) / (T(1) + end * (T(1.2) + end)), grazing = sqrt(T(-log(u)));
-  T x = larger_of(T((T(1) - grazing_share) * rough_gaussian_slope(u) + grazing_share * grazing), T(T(0.05) * grazing - end));
+  T x = larger_of(T((T(1) - grazing_share) * rough_gaussian_slope(u) + grazing_share * grazing),
+                  T(T(0.05) * grazing - end));
   const auto upper = u < T(0.5);
   for (int step = 0; step < (kSinglePrecision<T> ? 4 : 5); ++step) {
     const T e = fast_exp(T(-square(x))), outside = half_erfc(x, e), inside = half_erfc(T(-x), e);

@@ -38,7 +38,8 @@ void add_assess(CLI::App& app, Common& common) {
   auto* speed = command->add_subcommand(
       "speed",
       "interpolation: what each variant loses on the database (every second point left out) and costs a lookup; "
-      "wavelengths: nodes against worst Delta E_2000 for scenes of many products; brdf: every model and variant, ns an evaluation "
+      "wavelengths: nodes against worst Delta E_2000 for scenes of many products; brdf: every model and variant, ns an "
+      "evaluation "
       "against its error in 50 digits and on a lit sphere");
   speed->footer(
       "Example: gonio assess speed brdf --out out/brdf-speed\n         gonio assess speed wavelengths "

@@ -11,7 +11,8 @@ namespace gonio::cli {
 void add_assess_stability(CLI::App& assess, Common& common) {
   auto* command = assess.add_subcommand(
       "stability",
-      "brdf: where reflection models fail, published forms beside ours, worst points, energy, validity; kramers-kronig: n, k from reflectance on cut bands, against metals whose n, k are known, and how wide an "
+      "brdf: where reflection models fail, published forms beside ours, worst points, energy, validity; "
+      "kramers-kronig: n, k from reflectance on cut bands, against metals whose n, k are known, and how wide an "
       "interval is honest");
   command->footer("Example: gonio assess stability brdf --out out/brdf-stability");
   add_common(*command, common);
@@ -25,8 +26,10 @@ void add_assess_stability(CLI::App& assess, Common& common) {
     if (arguments->what != "kramers-kronig" && arguments->what != "brdf")
       throw input_error("gonio assess stability: no map {}; expected brdf or kramers-kronig", arguments->what);
     const std::string out = arguments->out.empty() ? "out/assess/" + arguments->what : arguments->out;
-    if (arguments->what == "brdf") write_brdf_stability(out);
-    else write_kramers_kronig_charts(out);
+    if (arguments->what == "brdf")
+      write_brdf_stability(out);
+    else
+      write_kramers_kronig_charts(out);
     std::cout << out << '\n';
   });
 }

@@ -44,7 +44,8 @@ void add_mueller(Json& json, const Mueller<double>& mueller) {
   const double m11 = mueller.m[0][0];
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
-      json[fmt::format("m{}{}", row + 1, column + 1)] = m11 > 0 ? Json(mueller.m[row][column] / m11 + 0.0) : Json(nullptr);
+      json[fmt::format("m{}{}", row + 1, column + 1)] =
+          m11 > 0 ? Json(mueller.m[row][column] / m11 + 0.0) : Json(nullptr);
   json["m11"] = m11;
 }
 
@@ -57,13 +58,15 @@ void run_eval(const EvalArguments& arguments, const Common& common) {
   const Subject subject = make_subject(arguments.model, arguments.surface);
   const bool from_stdin = arguments.input == "-";
   const std::string file = from_stdin ? "stdin" : arguments.input;
-  const std::string text = from_stdin ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : read_file(arguments.input);
+  const std::string text =
+      from_stdin ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : read_file(arguments.input);
   const CsvTable table = read_csv(text, file);
   const Brdf<double> brdf = make_brdf<double>(subject.model.spec, subject.model.values);
   const std::vector<EvalRow> rows = eval_rows(table, file, transmits(brdf));
 
   Json json_rows = Json::array();
-  std::string out = fmt::format("{},f_r_per_sr{}\n", fmt::join(table.header, ","), request.mueller ? mueller_names(',') : "");
+  std::string out =
+      fmt::format("{},f_r_per_sr{}\n", fmt::join(table.header, ","), request.mueller ? mueller_names(',') : "");
   const bool delta = has_delta(brdf.lobe);
   for (const EvalRow& row : rows) {
     const double wavelength_nm = subject.wavelength_for(row.wavelength_nm ? row.wavelength_nm : arguments.at_nm);
@@ -80,8 +83,10 @@ void run_eval(const EvalArguments& arguments, const Common& common) {
     json_rows.push_back(one);
   }
   if (common.json) {
-    Json answer{{"model", subject.model.spec.info().name}, {"variant", subject.model.spec.variant()},
-                {"material", subject.surface.name()}, {"precision", request.precision}};
+    Json answer{{"model", subject.model.spec.info().name},
+                {"variant", subject.model.spec.variant()},
+                {"material", subject.surface.name()},
+                {"precision", request.precision}};
     if (request.light) answer["polarisation"] = arguments.polarisation;
     answer["rows"] = json_rows;
     std::cout << answer.dump(2) << '\n';
@@ -94,14 +99,23 @@ void run_eval(const EvalArguments& arguments, const Common& common) {
 }  // namespace
 
 void add_eval(CLI::App& app, Common& common) {
-  auto* command = app.add_subcommand("eval", "Evaluate a model or a fit: rows of angles in, the same rows + f_r_per_sr out");
-  command->footer("Example: printf 'theta_i_deg,theta_o_deg,phi_deg\\n30,40,180\\n' | gonio eval torrance-sparrow --set m=0.2 "
-                  "--material Au --at 550\nColumns: theta_i_deg, theta_o_deg (or theta_r_deg), phi_deg = phi_o - phi_i (180: mirror "
-                  "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm];\nor unit vectors towards light and eye, ix,iy,iz,ox,oy,oz (z: normal).\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is `perfect`.\n"
-                  "rough-dielectric: with theta_o_deg above 90, up to 180, it is f_t of the transmitted radiance; n is that of the far over the near side.\n"
-                  "Polarised light: s = k x n, p = k x s for the propagation direction k and the mean normal n; --polarisation gives f_r of linearly\n"
-                  "polarised light at an angle from s towards p, received in any polarisation; --mueller appends m11 (= f_r) and m12 .. m44, divided\n"
-                  "by m11, of Stokes vectors I, Q = s - p, U = +45 - -45, V = right - left. Faceted models and diffuse parts (depolarising) only.");
+  auto* command =
+      app.add_subcommand("eval", "Evaluate a model or a fit: rows of angles in, the same rows + f_r_per_sr out");
+  command->footer(
+      "Example: printf 'theta_i_deg,theta_o_deg,phi_deg\\n30,40,180\\n' | gonio eval torrance-sparrow --set m=0.2 "
+      "--material Au --at 550\nColumns: theta_i_deg, theta_o_deg (or theta_r_deg), phi_deg = phi_o - phi_i (180: "
+      "mirror "
+      "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm];\nor unit vectors towards light and "
+      "eye, ix,iy,iz,ox,oy,oz (z: normal).\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is "
+      "`perfect`.\n"
+      "rough-dielectric: with theta_o_deg above 90, up to 180, it is f_t of the transmitted radiance; n is that of the "
+      "far over the near side.\n"
+      "Polarised light: s = k x n, p = k x s for the propagation direction k and the mean normal n; --polarisation "
+      "gives f_r of linearly\n"
+      "polarised light at an angle from s towards p, received in any polarisation; --mueller appends m11 (= f_r) and "
+      "m12 .. m44, divided\n"
+      "by m11, of Stokes vectors I, Q = s - p, U = +45 - -45, V = right - left. Faceted models and diffuse parts "
+      "(depolarising) only.");
   add_common(*command, common);
   auto arguments = std::make_shared<EvalArguments>();
   arguments->model.add_to(*command);
@@ -110,7 +124,8 @@ void add_eval(CLI::App& app, Common& common) {
   command->add_option("--precision", arguments->request.precision, "float (SIMD), double or reference (50 digits)")
       ->check(CLI::IsMember({"float", "double", "reference"}))
       ->capture_default_str();
-  command->add_option("--polarisation", arguments->polarisation, "Incident linear polarisation: s, p or degrees from s towards p");
+  command->add_option("--polarisation", arguments->polarisation,
+                      "Incident linear polarisation: s, p or degrees from s towards p");
   command->add_flag("--mueller", arguments->request.mueller, "The whole Mueller matrix: columns m11 .. m44");
   command->add_option("--input", arguments->input, "CSV file, - for standard input")->capture_default_str();
   command->callback([&common, arguments] { run_eval(*arguments, common); });

@@ -14,12 +14,14 @@ namespace {
 constexpr double kTransparentK = 1e-4;
 
 /// The column under any of its names; -1 where optional and absent.
-int column(const CsvTable& table, std::initializer_list<std::string_view> names, const std::string& file, bool required = true) {
+int column(const CsvTable& table, std::initializer_list<std::string_view> names, const std::string& file,
+           bool required = true) {
   for (std::size_t c = 0; c < table.header.size(); ++c)
     for (const auto name : names)
       if (table.header[c] == name) return static_cast<int>(c);
-  if (required) throw input_error("{}:{}: column {} is missing; expected theta_i_deg,theta_o_deg,phi_deg[,wavelength_nm]", file,
-                                  table.header_line, *names.begin());
+  if (required)
+    throw input_error("{}:{}: column {} is missing; expected theta_i_deg,theta_o_deg,phi_deg[,wavelength_nm]", file,
+                      table.header_line, *names.begin());
   return -1;
 }
 
@@ -64,8 +66,10 @@ struct Evaluation {
       return reduce(T(S(i.x)), T(S(i.y)), T(S(i.z)), T(S(o.x)), T(S(o.y)), T(S(o.z)));
     }
     const auto w = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg, row.phi_i_deg);
-    if constexpr (is_lanes_v<T>) return spread<T>(w);
-    else return w;
+    if constexpr (is_lanes_v<T>)
+      return spread<T>(w);
+    else
+      return w;
   }
   double patch() const {
     if (row.transmitted()) return 0;
@@ -83,7 +87,8 @@ double unpolarised(const Evaluation& e, const std::string& precision) {
                               e.wavelength_um, row.phi_i_deg)
         .value;
   if (precision == "reference")
-    return reference_polarised(e.chosen.spec, e.chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, e.surface, e.wavelength_um)
+    return reference_polarised(e.chosen.spec, e.chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, e.surface,
+                               e.wavelength_um)
         .mueller.m[0][0];
   if (precision == "double")
     return row.transmitted() ? evaluate_transmission(e.brdf, e.i(), e.o(), e.surface)
@@ -120,33 +125,38 @@ PolarisedValue in_float(const Evaluation& e, const LinearLight<double>& light) {
   const LinearLight<FloatLanes> field{all(light.cos_alpha), all(light.sin_alpha)};
   if (e.row.transmitted()) {
     const auto i = spread<FloatLanes>(e.i()), o = spread<FloatLanes>(e.o());
-    return first_lane(transmission_mueller(lanes, i, o, azimuth, surface), transmission_linear(lanes, i, o, azimuth, surface, field));
+    return first_lane(transmission_mueller(lanes, i, o, azimuth, surface),
+                      transmission_linear(lanes, i, o, azimuth, surface, field));
   }
   const auto w = spread<FloatLanes>(e.above());
   const FloatLanes um = all(e.wavelength_um), patch = all(e.patch());
-  return first_lane(evaluate_mueller(lanes, w, azimuth, surface, um, patch), evaluate_linear(lanes, w, azimuth, surface, um, field, patch));
+  return first_lane(evaluate_mueller(lanes, w, azimuth, surface, um, patch),
+                    evaluate_linear(lanes, w, azimuth, surface, um, field, patch));
 }
 
 PolarisedValue polarised(const Evaluation& e, const std::string& precision, const LinearLight<double>& light) {
   if (precision == "double") return in_double(e, light);
   if (precision == "float") return in_float(e, light);
-  return reference_polarised(e.chosen.spec, e.chosen.values, e.row.theta_i_deg, e.row.theta_o_deg, e.row.phi_deg, e.surface,
-                             e.wavelength_um, e.row.phi_i_deg, light, e.patch());
+  return reference_polarised(e.chosen.spec, e.chosen.values, e.row.theta_i_deg, e.row.theta_o_deg, e.row.phi_deg,
+                             e.surface, e.wavelength_um, e.row.phi_i_deg, light, e.patch());
 }
 
 void check_polarisation(const Evaluation& e) {
-  if (e.row.vectors) throw input_error("ix,iy,iz,ox,oy,oz: no azimuth is taken from unit vectors; expected angles with polarised light");
+  if (e.row.vectors)
+    throw input_error("ix,iy,iz,ox,oy,oz: no azimuth is taken from unit vectors; expected angles with polarised light");
   if (states_polarisation(e.brdf) || e.brdf.ks == 0) return;
-  throw input_error("{}{}: does not state what becomes of polarisation; expected a faceted model (R of its facets), not turned back",
-                    e.chosen.spec.info().name, e.brdf.retro ? " with retro=yes" : "");
+  throw input_error(
+      "{}{}: does not state what becomes of polarisation; expected a faceted model (R of its facets), not turned back",
+      e.chosen.spec.info().name, e.brdf.retro ? " with retro=yes" : "");
 }
 
 void check_transparent(const Evaluation& e) {
   if (e.surface.perfect)
-    throw input_error("theta_o_deg {}: `perfect` lets nothing through; expected --n or a transparent --material", e.row.theta_o_deg);
+    throw input_error("theta_o_deg {}: `perfect` lets nothing through; expected --n or a transparent --material",
+                      e.row.theta_o_deg);
   if (e.surface.k > kTransparentK)
-    throw input_error("theta_o_deg {}: the surface absorbs (k = {}); expected k up to {} for transmitted light", e.row.theta_o_deg,
-                      e.surface.k, kTransparentK);
+    throw input_error("theta_o_deg {}: the surface absorbs (k = {}); expected k up to {} for transmitted light",
+                      e.row.theta_o_deg, e.surface.k, kTransparentK);
 }
 
 /// A row of components: z > 0, and unit length to float's rounding. They are used as they are; the angles are for the report.
@@ -157,18 +167,22 @@ EvalRow vector_row(const std::array<int, 6>& columns, const CsvRow& row, const s
   for (const std::size_t first : {0, 3}) {
     const double length2 = square(v[first]) + square(v[first + 1]) + square(v[first + 2]);
     if (!(v[first + 2] > 0 && std::abs(length2 - 1) < 1e-5))
-      throw input_error("{}:{}: {},{},{} is {},{},{}; expected a unit vector above the surface", file, row.line, kNames[first],
-                        kNames[first + 1], kNames[first + 2], v[first], v[first + 1], v[first + 2]);
+      throw input_error("{}:{}: {},{},{} is {},{},{}; expected a unit vector above the surface", file, row.line,
+                        kNames[first], kNames[first + 1], kNames[first + 2], v[first], v[first + 1], v[first + 2]);
   }
   const double degree = kPi<double> / 180;
-  const auto theta = [&](std::size_t first) { return std::atan2(std::hypot(v[first], v[first + 1]), v[first + 2]) / degree; };
+  const auto theta = [&](std::size_t first) {
+    return std::atan2(std::hypot(v[first], v[first + 1]), v[first + 2]) / degree;
+  };
   const double phi_i = std::atan2(v[1], v[0]) / degree, phi_o = std::atan2(v[4], v[3]) / degree;
-  return {theta(0), theta(3), phi_o - phi_i, std::nullopt, phi_i, &row, VectorPair{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}};
+  return {
+      theta(0), theta(3), phi_o - phi_i, std::nullopt, phi_i, &row, VectorPair{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}};
 }
 
 std::vector<EvalRow> vector_rows(const CsvTable& table, const std::string& file) {
   std::array<int, 6> columns;
-  for (std::size_t c = 0; const auto name : {"ix", "iy", "iz", "ox", "oy", "oz"}) columns[c++] = column(table, {name}, file);
+  for (std::size_t c = 0; const auto name : {"ix", "iy", "iz", "ox", "oy", "oz"})
+    columns[c++] = column(table, {name}, file);
   const int wavelength = column(table, {"wavelength_nm"}, file, false);
   std::vector<EvalRow> rows;
   for (const CsvRow& row : table.rows) {
@@ -176,7 +190,8 @@ std::vector<EvalRow> vector_rows(const CsvTable& table, const std::string& file)
     if (wavelength >= 0 && !row.cells[wavelength].empty())
       rows.back().wavelength_nm = csv_number(row.cells[wavelength], "wavelength_nm", file, row.line);
   }
-  if (rows.empty()) throw input_error("{}:{}: has no rows; expected at least one pair of directions", file, table.header_line);
+  if (rows.empty())
+    throw input_error("{}:{}: has no rows; expected at least one pair of directions", file, table.header_line);
   return rows;
 }
 
@@ -184,20 +199,24 @@ std::vector<EvalRow> vector_rows(const CsvTable& table, const std::string& file)
 
 std::vector<EvalRow> eval_rows(const CsvTable& table, const std::string& file, bool transmits) {
   if (column(table, {"ix"}, file, false) >= 0) return vector_rows(table, file);
-  const int theta_i = column(table, {"theta_i_deg"}, file), theta_o = column(table, {"theta_o_deg", "theta_r_deg"}, file);
+  const int theta_i = column(table, {"theta_i_deg"}, file),
+            theta_o = column(table, {"theta_o_deg", "theta_r_deg"}, file);
   const int phi = column(table, {"phi_deg"}, file), wavelength = column(table, {"wavelength_nm"}, file, false);
   const int phi_i = column(table, {"phi_i_deg"}, file, false);
   std::vector<EvalRow> rows;
   for (const CsvRow& row : table.rows) {
     EvalRow one{zenith(row.cells[theta_i], "theta_i_deg", file, row.line, false),
                 zenith(row.cells[theta_o], "theta_o_deg", file, row.line, transmits),
-                csv_number(row.cells[phi], "phi_deg", file, row.line), std::nullopt,
-                phi_i >= 0 ? csv_number(row.cells[phi_i], "phi_i_deg", file, row.line) : 0.0, &row};
+                csv_number(row.cells[phi], "phi_deg", file, row.line),
+                std::nullopt,
+                phi_i >= 0 ? csv_number(row.cells[phi_i], "phi_i_deg", file, row.line) : 0.0,
+                &row};
     if (wavelength >= 0 && !row.cells[wavelength].empty())
       one.wavelength_nm = csv_number(row.cells[wavelength], "wavelength_nm", file, row.line);
     rows.push_back(one);
   }
-  if (rows.empty()) throw input_error("{}:{}: has no rows; expected at least one pair of directions", file, table.header_line);
+  if (rows.empty())
+    throw input_error("{}:{}: has no rows; expected at least one pair of directions", file, table.header_line);
   return rows;
 }
 
@@ -207,7 +226,8 @@ LinearLight<double> linear_light(const std::string& text) {
   if (text.find_first_not_of("0123456789.+-eE") != text.npos)
     throw input_error("--polarisation {}: unknown; expected s, p or an angle in degrees from s towards p", text);
   const double alpha_deg = number_in(text, "--polarisation");
-  if (!(std::abs(alpha_deg) <= 360)) throw input_error("--polarisation {}: out of range; expected -360 to 360 degrees", text);
+  if (!(std::abs(alpha_deg) <= 360))
+    throw input_error("--polarisation {}: out of range; expected -360 to 360 degrees", text);
   const Azimuth<double> alpha = azimuth_from_deg(alpha_deg);
   return {alpha.cos_phi(), alpha.sin_phi};
 }

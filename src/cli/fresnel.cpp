@@ -49,7 +49,8 @@ Index index_from(const FresnelArguments& arguments) {
   if (arguments.permittivity) throw input_error("--permittivity: given without --conductivity; expected both");
   if (arguments.id.empty()) {
     if (!arguments.n) throw input_error("gonio fresnel: no material; expected an ID with --at, or --n (and --k)");
-    if (arguments.at_nm && !arguments.thickness_um) throw input_error("--at: given with --n; expected it only with an ID");
+    if (arguments.at_nm && !arguments.thickness_um)
+      throw input_error("--at: given with --n; expected it only with an ID");
     if (arguments.from) throw input_error("--from: given with --n; expected n, k relative to the incident medium");
     SurfaceArguments fixed;
     fixed.n = arguments.n;
@@ -73,9 +74,12 @@ void check_slab(const FresnelArguments& arguments, const Index& index) {
   if (!(*arguments.thickness_um > 0 && *arguments.thickness_um <= 1e9))
     throw input_error("--thickness-um {}: out of range; expected 0 to 1e9 um", *arguments.thickness_um);
   if (index.k > kTransparentK)
-    throw input_error("--thickness-um: the slab absorbs too strongly for its faces to count as dielectric (k = {}); expected k up to {}",
-                      index.k, kTransparentK);
-  if (!arguments.at_nm && index.k > 0) throw input_error("--thickness-um: absorption needs the wavelength; expected --at NM");
+    throw input_error(
+        "--thickness-um: the slab absorbs too strongly for its faces to count as dielectric (k = {}); expected k up to "
+        "{}",
+        index.k, kTransparentK);
+  if (!arguments.at_nm && index.k > 0)
+    throw input_error("--thickness-um: absorption needs the wavelength; expected --at NM");
 }
 
 /// Of an interface: reflected, and entering where it is transparent; of a slab: out of its front, out of its back.
@@ -86,7 +90,8 @@ struct Shares {
 Shares shares_at(const FresnelArguments& arguments, const Index& index, double theta_deg) {
   const double c = cos_deg(theta_deg);
   if (arguments.thickness_um) {
-    const auto slab = slab_shares(c, index.n, index.k_in_vacuum, *arguments.thickness_um, arguments.at_nm.value_or(550) / 1000);
+    const auto slab =
+        slab_shares(c, index.n, index.k_in_vacuum, *arguments.thickness_um, arguments.at_nm.value_or(550) / 1000);
     return {slab.reflected, slab.transmitted};
   }
   const Polarised<double> r = fresnel(c, index.n, index.k);
@@ -106,8 +111,8 @@ FresnelTable table_at(const FresnelArguments& arguments, const std::vector<doubl
   const bool slab = arguments.thickness_um.has_value();
   if (slab) check_slab(arguments, index);
   const bool transparent = index.k <= kTransparentK;
-  table.text = fmt::format("{}n = {:.6g}, k = {:.6g}{}\n", index.name.empty() ? "" : index.name + ": ", index.n, index.k,
-                           arguments.at_nm ? fmt::format(" at {:g} nm", *arguments.at_nm) : "");
+  table.text = fmt::format("{}n = {:.6g}, k = {:.6g}{}\n", index.name.empty() ? "" : index.name + ": ", index.n,
+                           index.k, arguments.at_nm ? fmt::format(" at {:g} nm", *arguments.at_nm) : "");
   if (with_source && !index.source.empty()) table.text += fmt::format("source: {}\n", index.source);
   table.text += fmt::format("{:>10} {:>12} {:>12} {:>12}{}{}\n", "theta_deg", "R_s", "R_p", "R",
                             slab ? "          T_s          T_p" : "", transparent ? "            T" : "");
@@ -127,7 +132,8 @@ void run_fresnel(FresnelArguments arguments, bool json) {
   const std::vector<double> angles = number_list(arguments.angles, "--angles", 0, 90);
   const bool many = !arguments.wavelengths.empty();
   if (many && arguments.at_nm) throw input_error("--wavelengths and --at: both given; expected one of the two");
-  if (many && arguments.id.empty()) throw input_error("--wavelengths: given without an ID; expected a material of the database");
+  if (many && arguments.id.empty())
+    throw input_error("--wavelengths: given without an ID; expected a material of the database");
   std::vector<std::optional<double>> wavelengths{arguments.at_nm};
   if (many) {
     wavelengths.clear();
@@ -144,8 +150,10 @@ void run_fresnel(FresnelArguments arguments, bool json) {
     one["rows"] = table.rows;
     if (many && answer.empty()) answer = {{"id", table.index.name}, {"source", table.index.source}};
     text += table.text;
-    if (many) by_wavelength.push_back(one);
-    else answer = one;
+    if (many)
+      by_wavelength.push_back(one);
+    else
+      answer = one;
   }
   if (many && arguments.thickness_um) answer["thickness_um"] = *arguments.thickness_um;
   if (many) answer["wavelengths"] = by_wavelength;
@@ -160,13 +168,15 @@ void run_fresnel(FresnelArguments arguments, bool json) {
 
 void add_fresnel(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("fresnel", "Fresnel reflectances R_s, R_p, R (and T where k is below 1e-4)");
-  command->footer("Example: gonio fresnel Au --at 550 --angles 0,30,60,85\n         gonio fresnel --n 1.5 --angles 56.31\n"
-                  "         gonio fresnel --conductivity 5.96e7 --at 100000\n"
-                  "         gonio fresnel BK7 --thickness-um 10000 --wavelengths 400,550,700 --angles 0,45   (a slab of glass)");
+  command->footer(
+      "Example: gonio fresnel Au --at 550 --angles 0,30,60,85\n         gonio fresnel --n 1.5 --angles 56.31\n"
+      "         gonio fresnel --conductivity 5.96e7 --at 100000\n"
+      "         gonio fresnel BK7 --thickness-um 10000 --wavelengths 400,550,700 --angles 0,45   (a slab of glass)");
   add_common(*command, common);
   auto arguments = std::make_shared<FresnelArguments>();
   command->add_option("id", arguments->id, "Database id of the material");
-  command->add_option("--n", arguments->n, "Refractive index relative to the incident medium (n < 1: total reflection)");
+  command->add_option("--n", arguments->n,
+                      "Refractive index relative to the incident medium (n < 1: total reflection)");
   command->add_option("--k", arguments->k, "Extinction coefficient relative to the incident medium");
   command->add_option("--from", arguments->from, "Refractive index of the incident medium, for an ID (default 1)");
   command->add_option("--at", arguments->at_nm, "Wavelength in nm, for an ID");
@@ -176,7 +186,8 @@ void add_fresnel(CLI::App& app, Common& common) {
   command->add_option("--angles", arguments->angles, "Angles of incidence in degrees, 0 to 90")->capture_default_str();
   command->add_option("--thickness-um", arguments->thickness_um,
                       "R and T of a plane-parallel slab of this thickness, absorption inside included (k up to 1e-4)");
-  command->add_option("--wavelengths", arguments->wavelengths, "Several wavelengths in nm, 400,500,600, for an ID (instead of --at)");
+  command->add_option("--wavelengths", arguments->wavelengths,
+                      "Several wavelengths in nm, 400,500,600, for an ID (instead of --at)");
   command->callback([&common, arguments] { run_fresnel(*arguments, common.json); });
 }
 

@@ -38,7 +38,9 @@ Json describe(const ModelInfo& info) {
           {"needs_wavelength", info.needs_wavelength},
           {"polarisation", polarisation_of(info)},
           {"claims",
-           {{"reciprocal", info.reciprocal}, {"conserving", info.conserving}, {"bounded_at_grazing", info.bounded_at_grazing},
+           {{"reciprocal", info.reciprocal},
+            {"conserving", info.conserving},
+            {"bounded_at_grazing", info.bounded_at_grazing},
             {"variants_not_reciprocal", info.variants_not_reciprocal}}}};
 }
 
@@ -66,11 +68,13 @@ void print_published(std::string_view name, bool json) {
   const auto colon = name.find(':');
   if (colon == name.npos) {
     for (const PublishedTable& table : published_tables())
-      all.push_back({{"table", table.name}, {"model", table.model}, {"variant", table.variant}, {"shadowing", table.shadowing}});
+      all.push_back(
+          {{"table", table.name}, {"model", table.model}, {"variant", table.variant}, {"shadowing", table.shadowing}});
   } else {
     for (const PublishedFit& fit : read_published(published_table(name.substr(colon + 1)))) {
       Json one{{"material", fit.material}, {"channel", fit.channel}, {"model", fit.spec.info().name}};
-      for (std::size_t i = 0; i < fit.values.size(); ++i) one[std::string(fit.spec.info().parameters[i].name)] = fit.values[i];
+      for (std::size_t i = 0; i < fit.values.size(); ++i)
+        one[std::string(fit.spec.info().parameters[i].name)] = fit.values[i];
       if (!fit.surface.perfect) one["n"] = fit.surface.n;
       all.push_back(one);
     }
@@ -81,7 +85,8 @@ void print_published(std::string_view name, bool json) {
   }
   for (const Json& one : all) {
     std::string line;
-    for (const auto& [key, value] : one.items()) line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, value.dump());
+    for (const auto& [key, value] : one.items())
+      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, value.dump());
     fmt::print("{}\n", line);
   }
 }
@@ -90,8 +95,10 @@ void print_published(std::string_view name, bool json) {
 
 void add_models(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("models", "Models, parameters with units and ranges, variants, claims");
-  command->footer("Example: gonio models torrance-sparrow\nPublished fits of measured materials: gonio models published, gonio models "
-                  "published:ngan-ward,\nthen gonio eval published:ngan-ward/blue-acrylic/g");
+  command->footer(
+      "Example: gonio models torrance-sparrow\nPublished fits of measured materials: gonio models published, gonio "
+      "models "
+      "published:ngan-ward,\nthen gonio eval published:ngan-ward/blue-acrylic/g");
   add_common(*command, common);
   auto name = std::make_shared<std::string>();
   command->add_option("name", *name, "One model only");
@@ -99,8 +106,10 @@ void add_models(CLI::App& app, Common& common) {
     if (name->starts_with("published")) return print_published(*name, common.json);
     if (!name->empty()) {
       const ModelInfo& info = model(*name);
-      if (common.json) std::cout << describe(info).dump(2) << '\n';
-      else print_card(info);
+      if (common.json)
+        std::cout << describe(info).dump(2) << '\n';
+      else
+        print_card(info);
       return;
     }
     if (common.json) {

@@ -31,10 +31,14 @@ std::vector<Estimate> estimates(const Integral& integral) {
 bool anisotropic(const Lobe<double>& lobe) {
   return std::visit(
       []<class L>(const L& one) {
-        if constexpr (requires { one.alpha_x; }) return one.alpha_x != one.alpha_y;
-        else if constexpr (requires { one.n_u; }) return one.n_u != one.n_v;
-        else if constexpr (requires { one.c_x; }) return one.c_x != one.c_y;
-        else return false;
+        if constexpr (requires { one.alpha_x; })
+          return one.alpha_x != one.alpha_y;
+        else if constexpr (requires { one.n_u; })
+          return one.n_u != one.n_v;
+        else if constexpr (requires { one.c_x; })
+          return one.c_x != one.c_y;
+        else
+          return false;
       },
       lobe);
 }
@@ -43,8 +47,8 @@ bool anisotropic(const Lobe<double>& lobe) {
 /// grain. Isotropic lobes are the same on both sides of it.
 class SlopePlane {
  public:
-  SlopePlane(const LobeSpectrum& spectrum, double theta_i_deg, double phi_i_deg, bool both_sides, const SlopeExtent& extent,
-             double tolerance)
+  SlopePlane(const LobeSpectrum& spectrum, double theta_i_deg, double phi_i_deg, bool both_sides,
+             const SlopeExtent& extent, double tolerance)
       : spectrum_(spectrum),
         cos_i_(cos_deg(theta_i_deg)),
         sin_i_(sin_deg(theta_i_deg)),
@@ -61,8 +65,15 @@ class SlopePlane {
     const double theta_i = std::atan2(sin_i_, cos_i_), right = 0.5 * kPi<double>;
     const double end = std::tan(std::min(0.5 * (right + theta_i), right - 1e-9));
     const double most = extent_.gaussian ? std::min(end, 9 * extent_.widest) : end;  // exp(-81) of a Gaussian is left
-    std::vector<double> points{std::tan(0.5 * (right - theta_i)), std::tan(right - theta_i), std::tan((right - theta_i) / 3),
-                               std::tan((right + theta_i) / 3), 1.0, std::sqrt(3.0), 4.0, 20.0, 100.0};
+    std::vector<double> points{std::tan(0.5 * (right - theta_i)),
+                               std::tan(right - theta_i),
+                               std::tan((right - theta_i) / 3),
+                               std::tan((right + theta_i) / 3),
+                               1.0,
+                               std::sqrt(3.0),
+                               4.0,
+                               20.0,
+                               100.0};
     for (const double width : {extent_.narrowest, extent_.widest})
       for (const double k : {0.5, 1.5, 3.0, 5.0, 20.0, 100.0, 1000.0}) points.push_back(k * width);
     return breakpoints(0, most, points);
@@ -80,7 +91,8 @@ class SlopePlane {
     const auto integrand = [&](double phi, Eigen::ArrayXd& value) { facet(tan_h, cos_h, sin_h, across, phi, value); };
     std::vector<double> points = breakpoints(0, horizon, {kink_i, kink_o});
     if (both_sides_) points = with_grain(tan_h, horizon, {kink_i, -kink_i, kink_o, -kink_o, 0.0});
-    const Integral integral = integrate_adaptively(integrand, points, spectrum_.size(), tolerance_, both_sides_ ? 120 : 40);
+    const Integral integral =
+        integrate_adaptively(integrand, points, spectrum_.size(), tolerance_, both_sides_ ? 120 : 40);
     out = integral.value;
     return integral.error;
   }
@@ -97,8 +109,18 @@ class SlopePlane {
     const double h_in = 2 * cos_d * sin_h * std::cos(phi), h_across = 2 * cos_d * sin_h * std::sin(phi);
     const double ix = sin_i_ * cos_phi_, iy = sin_i_ * sin_phi_;
     const double hx = h_in * cos_phi_ - h_across * sin_phi_, hy = h_in * sin_phi_ + h_across * cos_phi_;
-    const Directions<double> w{cos_i_, cos_o, cos_d, tan_h * tan_h, (sin_i_ / cos_i_) * (sin_i_ / cos_i_),
-                               std::max(0.0, (1 - cos_o) * (1 + cos_o)) / (cos_o * cos_o), ix, iy, hx - ix, hy - iy, hx, hy};
+    const Directions<double> w{cos_i_,
+                               cos_o,
+                               cos_d,
+                               tan_h * tan_h,
+                               (sin_i_ / cos_i_) * (sin_i_ / cos_i_),
+                               std::max(0.0, (1 - cos_o) * (1 + cos_o)) / (cos_o * cos_o),
+                               ix,
+                               iy,
+                               hx - ix,
+                               hy - iy,
+                               hx,
+                               hy};
     const double sides = both_sides_ ? 1 : 2;
     spectrum_.evaluate(w, sides * tan_h * cos_h * cos_h * cos_h * 4 * cos_d * cos_o, value);
   }
@@ -125,7 +147,11 @@ class SlopePlane {
 class ProjectedDisc {
  public:
   ProjectedDisc(const LobeSpectrum& spectrum, double theta_i_deg, double width, double tolerance)
-      : spectrum_(spectrum), cos_i_(cos_deg(theta_i_deg)), sin_i_(sin_deg(theta_i_deg)), width_(width), tolerance_(tolerance) {}
+      : spectrum_(spectrum),
+        cos_i_(cos_deg(theta_i_deg)),
+        sin_i_(sin_deg(theta_i_deg)),
+        width_(width),
+        tolerance_(tolerance) {}
 
   std::vector<double> outer_points() const {
     const double right = 0.5 * kPi<double>;
@@ -138,7 +164,10 @@ class ProjectedDisc {
     const double edge = along >= 0 ? near : far, behind = along >= 0 ? far : near;
     const auto integrand = [&](double s, Eigen::ArrayXd& value) {
       const double rho = edge * (1 - s) * (1 + s), cos_o = s * std::sqrt(edge * (behind + rho)), sum = cos_i_ + cos_o;
-      const Directions<double> w{cos_i_, cos_o, 0.5 * std::hypot(rho, sum), (rho / sum) * (rho / sum),
+      const Directions<double> w{cos_i_,
+                                 cos_o,
+                                 0.5 * std::hypot(rho, sum),
+                                 (rho / sum) * (rho / sum),
                                  (sin_i_ / cos_i_) * (sin_i_ / cos_i_),
                                  std::max(0.0, (1 - cos_o) * (1 + cos_o)) / (cos_o * cos_o)};
       spectrum_.evaluate(w, 2 * rho * 2 * edge * s, value);
@@ -168,9 +197,12 @@ double width_in_cosines(const Lobe<double>& lobe, double theta_i_deg, double wav
 }
 
 template <class Plane>
-std::vector<Estimate> integrate_plane(const Plane& plane, const std::vector<double>& points, Eigen::Index size, double tolerance) {
+std::vector<Estimate> integrate_plane(const Plane& plane, const std::vector<double>& points, Eigen::Index size,
+                                      double tolerance) {
   double worst_inner = 0;
-  const auto outer = [&](double x, Eigen::ArrayXd& value) { worst_inner = std::max(worst_inner, plane.inner(x, value)); };
+  const auto outer = [&](double x, Eigen::ArrayXd& value) {
+    worst_inner = std::max(worst_inner, plane.inner(x, value));
+  };
   Integral integral = integrate_adaptively(outer, points, size, 0.5 * tolerance);
   integral.error += worst_inner * (points.back() - points.front());
   integral.converged = integral.error <= tolerance;
@@ -186,15 +218,16 @@ double above_horizon(double a, double b) {
 
 }  // namespace
 
-std::vector<Estimate> reflectance_over_slopes(const Lobe<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
-                                              double tolerance, double phi_i_deg) {
+std::vector<Estimate> reflectance_over_slopes(const Lobe<double>& lobe, double theta_i_deg,
+                                              const SpectralSurface& surface, double tolerance, double phi_i_deg) {
   const LobeSpectrum spectrum(lobe, surface);
   const SlopeExtent extent = slope_extent(lobe, surface.wavelength_um.back());
   const auto plane = [&](double inner_tolerance) {
     return SlopePlane(spectrum, theta_i_deg, phi_i_deg, anisotropic(lobe), extent, inner_tolerance);
   };
   const std::vector<double> points = plane(1).outer_points();
-  return integrate_plane(plane(0.25 * tolerance / (points.back() - points.front())), points, spectrum.size(), tolerance);
+  return integrate_plane(plane(0.25 * tolerance / (points.back() - points.front())), points, spectrum.size(),
+                         tolerance);
 }
 
 std::vector<Estimate> reflectance_over_direction_cosines(const Lobe<double>& lobe, double theta_i_deg,
@@ -205,10 +238,11 @@ std::vector<Estimate> reflectance_over_direction_cosines(const Lobe<double>& lob
   return integrate_plane(disc, disc.outer_points(), spectrum.size(), tolerance);
 }
 
-std::vector<Estimate> reflectance_about_axis(const Lafortune<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
-                                             double tolerance, double phi_i_deg) {
+std::vector<Estimate> reflectance_about_axis(const Lafortune<double>& lobe, double theta_i_deg,
+                                             const SpectralSurface& surface, double tolerance, double phi_i_deg) {
   const double phi_i = phi_i_deg * kPi<double> / 180, sin_i = sin_deg(theta_i_deg);
-  const UnitVector<double> i{sin_i * std::cos(phi_i), sin_i * std::sin(phi_i), cos_deg(theta_i_deg)}, v = lobe.sampler().axis(i);
+  const UnitVector<double> i{sin_i * std::cos(phi_i), sin_i * std::sin(phi_i), cos_deg(theta_i_deg)},
+      v = lobe.sampler().axis(i);
   const double sin_v = std::hypot(v.x, v.y), x = sin_v > 0 ? v.x / sin_v : 1, y = sin_v > 0 ? v.y / sin_v : 0;
   // y = cos^(n+1) of the angle s from the axis makes the lobe's power flat; f is the same all around the axis.
   const auto integrand = [&](double power, Eigen::ArrayXd& value) {
@@ -219,25 +253,27 @@ std::vector<Estimate> reflectance_about_axis(const Lafortune<double>& lobe, doub
     value.setConstant(lobe.shape(w) * above_horizon(v.z * cos_s, sin_v * sin_s) * cos_s / (power * (lobe.n + 1)));
   };
   const double kink = std::pow(sin_v, lobe.n + 1);  // the lobe's cone touches the horizon
-  return estimates(integrate_adaptively(integrand, breakpoints(0, 1, {kink}), static_cast<Eigen::Index>(surface.size()), tolerance));
+  return estimates(
+      integrate_adaptively(integrand, breakpoints(0, 1, {kink}), static_cast<Eigen::Index>(surface.size()), tolerance));
 }
 
 /// f ~ cos_o^-3: ∫ f·cos_o dω_o has no value, and a quadrature would look for it for ever.
 void refuse_infinite(const Lobe<double>& lobe) {
   const auto* kirchhoff = std::get_if<BeckmannKirchhoff<double>>(&lobe);
   if (kirchhoff && kirchhoff->form == KirchhoffForm::nieto_vesperinas_1982)
-    throw input_error("beckmann-kirchhoff, nieto-vesperinas-1982: its directional reflectance is infinite (f grows as 1/cos_o^3 "
-                      "next to the horizon); expected another variant");
+    throw input_error(
+        "beckmann-kirchhoff, nieto-vesperinas-1982: its directional reflectance is infinite (f grows as 1/cos_o^3 "
+        "next to the horizon); expected another variant");
 }
 
-std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
-                                              double tolerance, double phi_i_deg) {
-  if (std::holds_alternative<Lambert>(lobe) || std::holds_alternative<Mirror>(lobe)) return std::vector<Estimate>(surface.size());
+std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double theta_i_deg,
+                                              const SpectralSurface& surface, double tolerance, double phi_i_deg) {
+  if (std::holds_alternative<Lambert>(lobe) || std::holds_alternative<Mirror>(lobe))
+    return std::vector<Estimate>(surface.size());
   refuse_infinite(lobe);
   if (const auto* one = std::get_if<Lafortune<double>>(&lobe))
     return reflectance_about_axis(*one, theta_i_deg, surface, tolerance, phi_i_deg);
-  if (diffracts(lobe))
-    return reflectance_over_direction_cosines(lobe, theta_i_deg, surface, tolerance);
+  if (diffracts(lobe)) return reflectance_over_direction_cosines(lobe, theta_i_deg, surface, tolerance);
   return reflectance_over_slopes(lobe, theta_i_deg, surface, tolerance, phi_i_deg);
 }
 

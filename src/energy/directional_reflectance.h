@@ -25,18 +25,19 @@ struct SpectralSurface {
 /// Coherent deltas are not in it. Adaptive quadrature to `tolerance` (absolute); what it could not reach is in error and converged.
 /// Lobes about the half vector: over its slopes, split at the kinks of the V-cavity and at the horizon.
 /// beckmann-kirchhoff and he: over direction cosines around the mirror direction. lafortune: about its axis, the turn in closed form.
-std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
-                                              double tolerance = 1e-7, double phi_i_deg = 0);
+std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double theta_i_deg,
+                                              const SpectralSurface& surface, double tolerance = 1e-7,
+                                              double phi_i_deg = 0);
 
 /// Whether E depends on phi_i_deg (it is the same at -phi and 180° - phi).
 bool looks_at_the_grain(const Lobe<double>& lobe);
 
 /// The methods by name; the first works for every lobe, the second for isotropic ones, and they judge each other.
-std::vector<Estimate> reflectance_over_slopes(const Lobe<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
-                                              double tolerance, double phi_i_deg = 0);
+std::vector<Estimate> reflectance_over_slopes(const Lobe<double>& lobe, double theta_i_deg,
+                                              const SpectralSurface& surface, double tolerance, double phi_i_deg = 0);
 std::vector<Estimate> reflectance_over_direction_cosines(const Lobe<double>& lobe, double theta_i_deg,
                                                          const SpectralSurface& surface, double tolerance);
-std::vector<Estimate> reflectance_about_axis(const Lafortune<double>& lobe, double theta_i_deg, const SpectralSurface& surface,
-                                             double tolerance, double phi_i_deg = 0);
+std::vector<Estimate> reflectance_about_axis(const Lafortune<double>& lobe, double theta_i_deg,
+                                             const SpectralSurface& surface, double tolerance, double phi_i_deg = 0);
 
 }  // namespace gonio

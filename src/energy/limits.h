@@ -26,9 +26,10 @@ struct Limits {
   double kd_max = 0;  ///< min (1 - ks·E)/ρd at the material's own ks; 0 when the lobe alone breaks (43)
   double worst_total = 0, worst_theta_deg = 0, worst_wavelength_nm = 0;  ///< of the material as given
   double worst_error = 0;                                                ///< largest error bound of any E
-  double coherent_energy = 0;                                            ///< at normal incidence, ks = 1, largest over wavelengths
-  double theta_max_deg = 90;  ///< limits hold up to here; below 90 the lobe is unbounded at grazing: "not conserving beyond"
-  bool bounded = true;        ///< the lobe's E is bounded up to grazing
+  double coherent_energy = 0;  ///< at normal incidence, ks = 1, largest over wavelengths
+  double theta_max_deg =
+      90;               ///< limits hold up to here; below 90 the lobe is unbounded at grazing: "not conserving beyond"
+  bool bounded = true;  ///< the lobe's E is bounded up to grazing
   double range_lo_nm = 0, range_hi_nm = 0;
   std::vector<LimitRow> rows;
 

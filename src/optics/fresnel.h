@@ -15,11 +15,11 @@ struct Polarised {
 /// the larger of a, b from its root u = (q + |t|)/2, the other from a·b = n·k.
 template <class T>
 struct FresnelTerms {
-  T q, t, u;        ///< u = max(a², b²)
-  T two_a_c;        ///< 2·a·c
-  T contrast2;      ///< |N² - 1|²
-  T s_sum, p_sum;   ///< |c + w|² and q·c² + 2ac·s² + s⁴
-  T p_even;         ///< q·c² + s⁴
+  T q, t, u;       ///< u = max(a², b²)
+  T two_a_c;       ///< 2·a·c
+  T contrast2;     ///< |N² - 1|²
+  T s_sum, p_sum;  ///< |c + w|² and q·c² + 2ac·s² + s⁴
+  T p_even;        ///< q·c² + s⁴
 };
 
 template <class T>

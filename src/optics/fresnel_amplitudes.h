@@ -31,7 +31,8 @@ FresnelAmplitudes<T> fresnel_amplitudes(const T& cos_theta, const T& n, const T&
   const T& c = cos_theta;
   const Complex<T> w = refracted_root(c, n, k), sum{c + w.re, w.im}, cw = c * w;
   const auto opens = norm(sum) > T(0);  // only n = 1, k = 0 at c = 0 does not
-  const Complex<T> divisor{select(opens, sum.re, T(1)), sum.im}, contrast{square(k) - (n - T(1)) * (n + T(1)), T(-2) * n * k};
+  const Complex<T> divisor{select(opens, sum.re, T(1)), sum.im},
+      contrast{square(k) - (n - T(1)) * (n + T(1)), T(-2) * n * k};
   const Complex<T> s = contrast / (divisor * divisor);
   const T s2 = (T(1) - c) * (T(1) + c);
   const Complex<T> p = s * (Complex<T>{s2 - cw.re, -cw.im} / Complex<T>{s2 + cw.re, cw.im});

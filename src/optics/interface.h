@@ -13,7 +13,9 @@ struct Interface {
   /// Unpolarised reflectance at the local angle of incidence (cos_d between a direction and the facet's normal).
   T reflectance(const T& cos_d) const { return reflectance_of_cos2(square(cos_d)).value(); }
   /// The same from cos²_d, as a fraction.
-  Ratio<T> reflectance_of_cos2(const T& cos2_d) const { return perfect ? whole(T(1)) : unpolarised_reflectance(cos2_d, n, k); }
+  Ratio<T> reflectance_of_cos2(const T& cos2_d) const {
+    return perfect ? whole(T(1)) : unpolarised_reflectance(cos2_d, n, k);
+  }
   /// For light polarised in, or across, the plane of incidence of the facet.
   Polarised<T> polarised(const T& cos_d) const { return perfect ? Polarised<T>{T(1), T(1)} : fresnel(cos_d, n, k); }
   /// Schlick 1992: f0 + (1 - f0)(1 - cos_d)^5, f0 = R0.

@@ -70,10 +70,12 @@ Stokes<T> operator*(const Mueller<T>& a, const Stokes<T>& light) {
 template <class T>
 Mueller<T> mueller_of(const Jones<T>& j) {
   const T half = T(0.5), ss = norm(j.ss), sp = norm(j.sp), ps = norm(j.ps), pp = norm(j.pp);
-  const Complex<T> s_row = j.ss * conj(j.sp), p_row = j.ps * conj(j.pp), s_column = j.ss * conj(j.ps), p_column = j.sp * conj(j.pp);
+  const Complex<T> s_row = j.ss * conj(j.sp), p_row = j.ps * conj(j.pp), s_column = j.ss * conj(j.ps),
+                   p_column = j.sp * conj(j.pp);
   const Complex<T> straight = j.ss * conj(j.pp), crossed = j.sp * conj(j.ps);
   Mueller<T> out;
-  out.m[0] = {half * ((ss + pp) + (sp + ps)), half * ((ss - pp) + (ps - sp)), s_row.re + p_row.re, -s_row.im - p_row.im};
+  out.m[0] = {half * ((ss + pp) + (sp + ps)), half * ((ss - pp) + (ps - sp)), s_row.re + p_row.re,
+              -s_row.im - p_row.im};
   out.m[1] = {half * ((ss - pp) - (ps - sp)), half * ((ss + pp) - (sp + ps)), s_row.re - p_row.re, p_row.im - s_row.im};
   out.m[2] = {s_column.re + p_column.re, s_column.re - p_column.re, straight.re + crossed.re, crossed.im - straight.im};
   out.m[3] = {s_column.im + p_column.im, s_column.im - p_column.im, straight.im + crossed.im, straight.re - crossed.re};

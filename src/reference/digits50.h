@@ -9,7 +9,8 @@
 
 namespace gonio {
 
-using Digits50 = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50>, boost::multiprecision::et_off>;
+using Digits50 =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50>, boost::multiprecision::et_off>;
 
 template <>
 inline const Digits50 kPi<Digits50> = boost::math::constants::pi<Digits50>();
@@ -23,7 +24,8 @@ inline const Digits50 kSqrt2<Digits50> = boost::math::constants::root_two<Digits
 /// From MPFR's erfc up to x = 1000 (exp(x²) overflows before x = 1e5); beyond, the asymptotic series, 14 terms of < 1e-5 each.
 template <>
 struct Special<Digits50> {
-  using Wide = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100>, boost::multiprecision::et_off>;
+  using Wide =
+      boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100>, boost::multiprecision::et_off>;
   /// Σ_{k>=first} -(-1)^k (2k-1)!!/(2x²)^k / √π, for x > 1000.
   static Wide tail(const Wide& x, int first) {
     Wide term = 1, sum = 0;

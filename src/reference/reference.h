@@ -28,14 +28,15 @@ struct PolarisedValue {
   Mueller<double> mueller;
   double linear;
 };
-PolarisedValue reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg, double theta_o_deg,
-                                       double phi_deg, const Interface<double>& surface, double wavelength_um, double phi_i_deg = 0,
-                                       const LinearLight<double>& light = {1, 0}, double lobe_per_sr = 0);
+PolarisedValue reference_polarised(const ModelSpec& spec, std::span<const double> values, double theta_i_deg,
+                                   double theta_o_deg, double phi_deg, const Interface<double>& surface,
+                                   double wavelength_um, double phi_i_deg = 0,
+                                   const LinearLight<double>& light = {1, 0}, double lobe_per_sr = 0);
 
 /// At unit vectors towards light and eye (z > 0; whatever they lack of unit length is taken as given), reduced in 50 digits as well:
 /// the judge of a path that received exactly these numbers.
-double reference_value(const ModelSpec& spec, std::span<const double> values, const UnitVector<double>& i, const UnitVector<double>& o,
-                       const Interface<double>& surface, double wavelength_um);
+double reference_value(const ModelSpec& spec, std::span<const double> values, const UnitVector<double>& i,
+                       const UnitVector<double>& o, const Interface<double>& surface, double wavelength_um);
 
 /// R_s and R_p at exactly these doubles; the angle in degrees, 0 to 90.
 Polarised<double> reference_fresnel(double theta_deg, double n, double k);

@@ -52,7 +52,8 @@ class SurfaceShader {
     if (i.z <= 0 || o.z <= 0) return Lanes(0.0F);
     Lanes f = diffuse_;
     if (has_lobe()) {
-      const Directions<double> given = reduce(i.x, i.y, i.z, o.x, o.y, o.z), w = brdf_.retro ? turned_back(given) : given;
+      const Directions<double> given = reduce(i.x, i.y, i.z, o.x, o.y, o.z),
+                               w = brdf_.retro ? turned_back(given) : given;
       const FloatLanes cos_d(static_cast<float>(w.cos_d));
       f *= static_cast<float>(factor);
       if (diffracts()) {
@@ -61,8 +62,7 @@ class SurfaceShader {
           f.part[b] += scale * reflectance(cos_d, b) * lobe_shape(lanes_brdf_.lobe, w, wavelength_um_.part[b]);
       } else {
         const FloatLanes scale(static_cast<float>(brdf_.ks * factor * lobe_shape(brdf_.lobe, w, longest_um_)));
-        for (std::size_t b = 0; b < N; ++b)
-          f.part[b] += scale * reflectance(cos_d, b);
+        for (std::size_t b = 0; b < N; ++b) f.part[b] += scale * reflectance(cos_d, b);
       }
       return f;
     }
@@ -95,7 +95,9 @@ class SurfaceShader {
 
   bool has_lobe() const { return !std::holds_alternative<Lambert>(brdf_.lobe) && brdf_.ks > 0; }
   bool diffracts() const { return brdf_.diffracts(); }
-  FloatLanes reflectance(const FloatLanes& cos_d, std::size_t b) const { return facet_reflectance(lanes_brdf_.lobe, cos_d, surface_[b]); }
+  FloatLanes reflectance(const FloatLanes& cos_d, std::size_t b) const {
+    return facet_reflectance(lanes_brdf_.lobe, cos_d, surface_[b]);
+  }
 
   static double mean(std::span<const double> values) {
     double sum = 0;

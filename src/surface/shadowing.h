@@ -33,7 +33,7 @@ template <class T>
 T smith_lambda_as_printed(const T& tan2, const T& alpha) {
   using std::erfc, std::exp, std::sqrt;
   const T a = T(1) / (alpha * sqrt(larger_of(tan2, T(1e-30))));
-  return larger_of(T(0), T(T(0.5) * (exp(-square(a)) / (a * kSqrtPi<T>) - erfc(a))));
+  return larger_of(T(0), T(T(0.5) * (exp(-square(a)) / (a * kSqrtPi<T>)-erfc(a))));
 }
 
 /// Smith's original shadowing function of one direction (1967): S = (1 - ½ erfc a)/(1 + Λ).
@@ -65,8 +65,10 @@ template <class T, class Pair>
 Ratio<T> shadowing_masking(Shadowing shadowing, const Pair& w, const T& alpha) {
   const T alpha2 = square(alpha);
   switch (shadowing) {
-    case Shadowing::none: return whole(T(1));
-    case Shadowing::v_cavity: return v_cavity(T(w.cos_i), T(w.cos_o), T(w.cos2_d()));
+    case Shadowing::none:
+      return whole(T(1));
+    case Shadowing::v_cavity:
+      return v_cavity(T(w.cos_i), T(w.cos_o), T(w.cos2_d()));
     case Shadowing::smith_separable: {
       const Ratio<T> i = smith_visible(T(alpha2 * T(w.tan2_i))), o = smith_visible(T(alpha2 * T(w.tan2_o)));
       return {T(4) * i.under * o.under, (i.under + i.over) * (o.under + o.over)};
@@ -75,7 +77,8 @@ Ratio<T> shadowing_masking(Shadowing shadowing, const Pair& w, const T& alpha) {
       const Ratio<T> i = smith_visible(T(alpha2 * T(w.tan2_i))), o = smith_visible(T(alpha2 * T(w.tan2_o)));
       return {T(2) * i.under * o.under, multiply_add(i.over, o.under, T(o.over * i.under))};
     }
-    case Shadowing::smith_1967: return whole(T(smith_1967(T(w.tan2_i), alpha) * smith_1967(T(w.tan2_o), alpha)));
+    case Shadowing::smith_1967:
+      return whole(T(smith_1967(T(w.tan2_i), alpha) * smith_1967(T(w.tan2_o), alpha)));
   }
   return whole(T(1));
 }

@@ -44,7 +44,9 @@ struct SmithInterval {
 template <class V>
 SmithInterval<V> smith_interval(const V& v) {
   const SmithTable& table = SmithTable::get();
-  const auto index_of = [](double x) { return static_cast<std::size_t>(std::clamp(x * SmithTable::kIntervals, 0.0, SmithTable::kIntervals - 1.0)); };
+  const auto index_of = [](double x) {
+    return static_cast<std::size_t>(std::clamp(x * SmithTable::kIntervals, 0.0, SmithTable::kIntervals - 1.0));
+  };
   if constexpr (is_lanes_v<V>) {
     using S = scalar_t<V>;
     alignas(64) std::array<S, V::size> at;
@@ -53,13 +55,15 @@ SmithInterval<V> smith_interval(const V& v) {
     for (std::size_t lane = 0; lane < V::size; ++lane) {
       const std::size_t i = index_of(static_cast<double>(at[lane]));
       of[0][lane] = S(static_cast<double>(i) / SmithTable::kIntervals);
-      of[1][lane] = S(table.value[i]), of[2][lane] = S(table.value[i + 1]), of[3][lane] = S(table.slope[i]), of[4][lane] = S(table.slope[i + 1]);
+      of[1][lane] = S(table.value[i]), of[2][lane] = S(table.value[i + 1]), of[3][lane] = S(table.slope[i]),
+      of[4][lane] = S(table.slope[i + 1]);
     }
     const auto load = [&](std::size_t k) { return V::load_aligned(of[k].data()); };
     return {load(0), load(1), load(2), load(3), load(4)};
   } else {
     const std::size_t i = index_of(static_cast<double>(v));
-    return {V(static_cast<double>(i) / SmithTable::kIntervals), V(table.value[i]), V(table.value[i + 1]), V(table.slope[i]), V(table.slope[i + 1])};
+    return {V(static_cast<double>(i) / SmithTable::kIntervals), V(table.value[i]), V(table.value[i + 1]),
+            V(table.slope[i]), V(table.slope[i + 1])};
   }
 }
 

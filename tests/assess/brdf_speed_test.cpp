@@ -1,6 +1,5 @@
 // What `gonio assess speed brdf` compares with what: the loop that ratios refer to, counts of operations, fronts, Schlick's claims.
 #include "assess/brdf_speed_cases.h"
-
 #include "catch.h"
 
 using namespace gonio;

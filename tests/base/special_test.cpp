@@ -57,7 +57,9 @@ TEST_CASE("Lanes: erfcx, q, exp, log1p and 1 + 2 Lambda lose what they say", "[s
   CHECK(worst<FloatLanes>(-4, 7, smith, visible) < 3e-7);
   // Scalars stay at the last place.
   double scalar = 0;
-  for (double s = 1e-3; s < 1e6; s *= 1.07) scalar = std::max(scalar, std::abs(Real(Real(smith_visible(s * s).value()) / visible(Real(s)) - 1).convert_to<double>()));
+  for (double s = 1e-3; s < 1e6; s *= 1.07)
+    scalar = std::max(scalar,
+                      std::abs(Real(Real(smith_visible(s * s).value()) / visible(Real(s)) - 1).convert_to<double>()));
   CHECK(scalar < 2e-15);
 }
 

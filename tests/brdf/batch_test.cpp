@@ -19,7 +19,8 @@ struct Pairs {
     std::uniform_real_distribution<double> uniform(0, 1);
     for (std::size_t p = 0; p < count; ++p)
       for (const int first : {0, 3}) {
-        const double z = 0.02 + 0.98 * uniform(random), phi = 2 * kPi<double> * uniform(random), r = std::sqrt(1 - z * z);
+        const double z = 0.02 + 0.98 * uniform(random), phi = 2 * kPi<double> * uniform(random),
+                     r = std::sqrt(1 - z * z);
         v[first].push_back(r * std::cos(phi)), v[first + 1].push_back(r * std::sin(phi)), v[first + 2].push_back(z);
       }
   }
@@ -37,11 +38,14 @@ TEST_CASE("Batches give what single evaluations give: every model, any length, t
     for (const bool retro : {false, true}) {
       ModelSpec spec;
       spec.id = info.id, spec.retro = retro && info.id != ModelId::lambert;
-      if (!info.shadowings.empty() && std::find(info.shadowings.begin(), info.shadowings.end(), name_of(spec.shadowing)) == info.shadowings.end())
+      if (!info.shadowings.empty() &&
+          std::find(info.shadowings.begin(), info.shadowings.end(), name_of(spec.shadowing)) == info.shadowings.end())
         set_shadowing(spec, info.shadowings.front());
       std::vector<double> values;
-      for (const ParameterInfo& p : info.parameters) values.push_back(p.linear ? 0.4 : p.fit_lo > 0 ? std::sqrt(p.fit_lo * p.fit_hi) : 0.1);
-      evaluate_pairs<DoubleLanes>(spread_brdf<DoubleLanes>(spec, values), pairs.spans(), spread<DoubleLanes>(kMetal), DoubleLanes(0.55), f);
+      for (const ParameterInfo& p : info.parameters)
+        values.push_back(p.linear ? 0.4 : p.fit_lo > 0 ? std::sqrt(p.fit_lo * p.fit_hi) : 0.1);
+      evaluate_pairs<DoubleLanes>(spread_brdf<DoubleLanes>(spec, values), pairs.spans(), spread<DoubleLanes>(kMetal),
+                                  DoubleLanes(0.55), f);
       const Brdf<double> brdf = make_brdf<double>(spec, values);
       for (std::size_t p = 0; p < f.size(); ++p) {
         const auto& v = pairs.v;
@@ -66,12 +70,19 @@ TEST_CASE("The series in lanes against the 50-digit sum, on both sides of its tu
     const double g = i % 3 == 0 ? 10 + 40 * uniform(random) : std::pow(10, -6 + 10 * uniform(random));
     const double b = i % 4 == 0 ? 0.0 : i % 4 == 1 ? g * 10 * uniform(random) : 2500 * square(uniform(random));
     const auto gf = static_cast<float>(g), bf = static_cast<float>(b);
-    const double exact = oracle::kirchhoff_sum(g, b).convert_to<double>(), exact_f = oracle::kirchhoff_sum(double(gf), double(bf)).convert_to<double>();
+    const double exact = oracle::kirchhoff_sum(g, b).convert_to<double>(),
+                 exact_f = oracle::kirchhoff_sum(double(gf), double(bf)).convert_to<double>();
     INFO("g " << g << " b " << b);
-    if (exact > 1e-290) worst_double = std::max(worst_double, std::abs(diffraction_series(DoubleLanes(g), DoubleLanes(b), DoubleLanes(1.0)).get(0) / exact - 1));
-    const double f = diffraction_series(FloatLanes(gf), FloatLanes(bf), FloatLanes(1.0F)).get(0), error = std::abs(f / exact_f - 1);
-    if (exact_f > 1e-6 * oracle::kirchhoff_sum(double(gf), 0).convert_to<double>()) worst_float = std::max(worst_float, error);
-    else if (exact_f > 1e-30) faint = std::max(faint, error);
+    if (exact > 1e-290)
+      worst_double =
+          std::max(worst_double,
+                   std::abs(diffraction_series(DoubleLanes(g), DoubleLanes(b), DoubleLanes(1.0)).get(0) / exact - 1));
+    const double f = diffraction_series(FloatLanes(gf), FloatLanes(bf), FloatLanes(1.0F)).get(0),
+                 error = std::abs(f / exact_f - 1);
+    if (exact_f > 1e-6 * oracle::kirchhoff_sum(double(gf), 0).convert_to<double>())
+      worst_float = std::max(worst_float, error);
+    else if (exact_f > 1e-30)
+      faint = std::max(faint, error);
   }
   INFO("double " << worst_double << ", float " << worst_float << ", faint " << faint);
   CHECK(worst_double < 1e-10);
@@ -92,10 +103,12 @@ TEST_CASE("Below its turn the nodes of the series lose what the terms keep", "[b
 TEST_CASE("Derivatives in lanes equal ceres::Jet's, the series included", "[brdf][batch]") {
   using D = Dual<DoubleLanes, 4>;
   using J = Jet<4>;
-  for (const ModelId id : {ModelId::torrance_sparrow, ModelId::beckmann_kirchhoff, ModelId::he_1991, ModelId::pseudo_realistic})
+  for (const ModelId id :
+       {ModelId::torrance_sparrow, ModelId::beckmann_kirchhoff, ModelId::he_1991, ModelId::pseudo_realistic})
     for (const double theta : {0.0, 35.0, 75.0}) {
       std::vector<double> values;
-      for (const ParameterInfo& p : model(id).parameters) values.push_back(p.linear ? 0.4 : std::sqrt(p.fit_lo * p.fit_hi));
+      for (const ParameterInfo& p : model(id).parameters)
+        values.push_back(p.linear ? 0.4 : std::sqrt(p.fit_lo * p.fit_hi));
       std::vector<D> duals;
       std::vector<J> jets;
       for (std::size_t p = 0; p < values.size(); ++p) {
@@ -103,16 +116,20 @@ TEST_CASE("Derivatives in lanes equal ceres::Jet's, the series included", "[brdf
         jets.emplace_back(values[p], int(p));
       }
       const Directions<double> w = directions_from_deg(theta, theta + 4, 170.0);
-      const D f = evaluate(make_brdf<D>({id}, duals), spread<DoubleLanes>(w), Interface<D>{D(kMetal.n), D(kMetal.k)}, D(0.55));
+      const D f =
+          evaluate(make_brdf<D>({id}, duals), spread<DoubleLanes>(w), Interface<D>{D(kMetal.n), D(kMetal.k)}, D(0.55));
       const J g = evaluate(make_brdf<J>({id}, jets), w, Interface<J>{J(kMetal.n), J(kMetal.k)}, J(0.55));
       INFO(model(id).name << " at " << theta);
       CHECK(f.a.get(0) == Approx(g.a).epsilon(1e-10));
-      for (std::size_t p = 0; p < values.size(); ++p) CHECK(f.v[p].get(0) == Approx(g.v[int(p)]).epsilon(1e-8).margin(1e-12 * g.a / values[p]));
+      for (std::size_t p = 0; p < values.size(); ++p)
+        CHECK(f.v[p].get(0) == Approx(g.v[int(p)]).epsilon(1e-8).margin(1e-12 * g.a / values[p]));
     }
 }
 
 TEST_CASE("Rival sums: cut series lose the lobe, the Gauss rule its tail", "[brdf]") {
-  const auto relative = [](double sum, double g, double b) { return std::abs(sum / oracle::kirchhoff_sum(g, b).convert_to<double>() - 1); };
+  const auto relative = [](double sum, double g, double b) {
+    return std::abs(sum / oracle::kirchhoff_sum(g, b).convert_to<double>() - 1);
+  };
   CHECK(relative(poisson_lobe_fixed_terms(0.5, 1.0, 1.0, 10), 0.5, 1.0) < 1e-9);
   CHECK(relative(poisson_lobe_fixed_terms(8.0, 1.0, 1.0, 40), 8.0, 1.0) < 1e-12);
   CHECK(relative(poisson_lobe_fixed_terms(400.0, 0.0, 1.0, 40), 400.0, 0.0) > 0.999);

@@ -29,7 +29,8 @@ TEST_CASE("The diffraction series agrees with a 50-digit sum, g 1e-4 to 1e4, v_x
   std::uniform_real_distribution<double> uniform(0, 1);
   double worst_double = 0, worst_float = 0;
   for (int i = 0; i < 300; ++i) {
-    const double g = std::pow(10, -4 + 8 * uniform(random)), v_t = i % 5 == 0 ? 0.0 : 100 * std::pow(uniform(random), 2);
+    const double g = std::pow(10, -4 + 8 * uniform(random)),
+                 v_t = i % 5 == 0 ? 0.0 : 100 * std::pow(uniform(random), 2);
     const float gf = float(g), bf = float(v_t * v_t / 4);
     const double exact = oracle::kirchhoff_sum(g, oracle::Real(v_t) * oracle::Real(v_t) / 4).convert_to<double>();
     const double value = poisson_lobe_sum(g, v_t * v_t / 4);
@@ -52,13 +53,17 @@ TEST_CASE("Beckmann-Kirchhoff from angles agrees with (18a) in 50 digits", "[brd
   double worst_double = 0, worst_float = 0;
   const double wavelength_um = 0.55;
   for (int i = 0; i < 200; ++i) {
-    const double theta_i = i % 7 == 0 ? 89.99 : 89 * uniform(random), theta_o = 89.9 * uniform(random), phi = 720 * (uniform(random) - 0.5);
-    const Case c = make_case(std::pow(10, -4 + 8 * uniform(random)), 100 * std::pow(uniform(random), 2), theta_i, theta_o, phi, wavelength_um);
-    const double exact = oracle::kirchhoff(theta_i, theta_o, phi, c.sigma_um, c.correlation_um, wavelength_um).convert_to<double>();
+    const double theta_i = i % 7 == 0 ? 89.99 : 89 * uniform(random), theta_o = 89.9 * uniform(random),
+                 phi = 720 * (uniform(random) - 0.5);
+    const Case c = make_case(std::pow(10, -4 + 8 * uniform(random)), 100 * std::pow(uniform(random), 2), theta_i,
+                             theta_o, phi, wavelength_um);
+    const double exact =
+        oracle::kirchhoff(theta_i, theta_o, phi, c.sigma_um, c.correlation_um, wavelength_um).convert_to<double>();
     const Directions<double> w = directions_from_deg(theta_i, theta_o, phi);
     const BeckmannKirchhoff<double> model{c.sigma_um, c.correlation_um};
     const double value = model.shape(w, wavelength_um);
-    INFO("theta_i " << theta_i << " theta_o " << theta_o << " phi " << phi << " sigma " << c.sigma_um << " T " << c.correlation_um);
+    INFO("theta_i " << theta_i << " theta_o " << theta_o << " phi " << phi << " sigma " << c.sigma_um << " T "
+                    << c.correlation_um);
     REQUIRE(std::isfinite(value));
     if (exact > 1e-290) worst_double = std::max(worst_double, std::abs(value - exact) / exact);
     const BeckmannKirchhoff<FloatLanes> fast{FloatLanes(float(c.sigma_um)), FloatLanes(float(c.correlation_um))};
@@ -66,7 +71,8 @@ TEST_CASE("Beckmann-Kirchhoff from angles agrees with (18a) in 50 digits", "[brd
     REQUIRE(std::isfinite(f));
     REQUIRE(f >= 0);
     const Directions<double> mirror = directions_from_deg(theta_i, theta_i, 180.0);
-    if (exact > 1e-6 * model.shape(mirror, wavelength_um)) worst_float = std::max(worst_float, std::abs(f - exact) / exact);
+    if (exact > 1e-6 * model.shape(mirror, wavelength_um))
+      worst_float = std::max(worst_float, std::abs(f - exact) / exact);
   }
   INFO("double " << worst_double << ", float " << worst_float);
   CHECK(worst_double < 1e-10);
@@ -79,7 +85,8 @@ TEST_CASE("Nodes further apart than the constants allow lose what they say", "[b
   const auto coarse = [&](double step) {
     double sum = 0;
     for (double x = g; x < g + 12 * std::sqrt(g); x += step * std::sqrt(g)) sum += poisson_lobe_term(x, x - g, g, 0.0);
-    for (double x = g - step * std::sqrt(g); x > 1; x -= step * std::sqrt(g)) sum += poisson_lobe_term(x, x - g, g, 0.0);
+    for (double x = g - step * std::sqrt(g); x > 1; x -= step * std::sqrt(g))
+      sum += poisson_lobe_term(x, x - g, g, 0.0);
     return sum * 0x1p-60 * step * std::sqrt(g);  // a term is 2⁶⁰ times as large
   };
   const double exact = oracle::kirchhoff_sum(g, 0).convert_to<double>();
@@ -103,7 +110,8 @@ TEST_CASE("Very rough surfaces, g to 1e10: the limit with its first correction, 
 TEST_CASE("Stirling's error against ln Gamma", "[brdf]") {
   for (const double x : {1.0, 1.5, 2.0, 3.7, 7.999, 8.0, 15.0, 100.0, 1e6}) {
     const oracle::Real y(x);
-    const oracle::Real exact = lgamma(oracle::Real(y + 1)) - (y + oracle::Real(0.5)) * log(y) + y - log(2 * oracle::pi()) / 2;
+    const oracle::Real exact =
+        lgamma(oracle::Real(y + 1)) - (y + oracle::Real(0.5)) * log(y) + y - log(2 * oracle::pi()) / 2;
     CHECK(std::abs(stirling_error(x) - exact.convert_to<double>()) < 1e-14);
   }
 }
@@ -123,7 +131,8 @@ TEST_CASE("Rough limit: relative difference (2 - 4t + t²)/(2g)", "[brdf]") {
   }
 }
 
-TEST_CASE("Smooth limit: the incoherent energy is 1 - exp(-g) at the normal, T ≫ λ; the coherent part keeps the rest", "[brdf]") {
+TEST_CASE("Smooth limit: the incoherent energy is 1 - exp(-g) at the normal, T ≫ λ; the coherent part keeps the rest",
+          "[brdf]") {
   const double wavelength_um = 0.5, sigma = 0.002, correlation = 20;
   const BeckmannKirchhoff<double> series{sigma, correlation}, first{sigma, correlation, KirchhoffForm::smooth_limit};
   const double g = std::pow(4 * kPi<double> * sigma / wavelength_um, 2);
@@ -142,12 +151,14 @@ TEST_CASE("Smooth limit: the incoherent energy is 1 - exp(-g) at the normal, T �
 TEST_CASE("The coherent patch carries R exp(-g) in all", "[brdf]") {
   const BeckmannKirchhoff<double> model{0.02, 5};
   const double wavelength_um = 0.5, x = 30, y = 20, wave = 2 * kPi<double> / wavelength_um;
-  const double extent_x = 300 * kPi<double> / (wave * x), extent_y = 300 * kPi<double> / (wave * y);  // 300 fringes each side
+  const double extent_x = 300 * kPi<double> / (wave * x),
+               extent_y = 300 * kPi<double> / (wave * y);  // 300 fringes each side
   double energy = 0;
   const int n = 3000;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const double hx = ((i + 0.5) / n * 2 - 1) * extent_x, hy = ((j + 0.5) / n * 2 - 1) * extent_y, s2 = hx * hx + hy * hy;
+      const double hx = ((i + 0.5) / n * 2 - 1) * extent_x, hy = ((j + 0.5) / n * 2 - 1) * extent_y,
+                   s2 = hx * hx + hy * hy;
       if (s2 >= 1) continue;
       const double co = std::sqrt(1 - s2), sum = 1 + co;
       const Directions<double> w{1, co, 0.5 * std::sqrt(s2 + sum * sum), s2 / (sum * sum), 0, s2 / (co * co)};

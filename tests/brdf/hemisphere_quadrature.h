@@ -21,15 +21,20 @@ class HemisphereQuadrature {
   /// vectors' slopes `width` is there; and, next to grazing, smaller than half their distance from the meridian of `center`, or
   /// than that lobe is across it: no peak and no ridge is missed.
   template <class G>
-  HemisphereQuadrature(G&& g, const Direction& center, double width, double tolerance, std::size_t most_cells = 200000) {
+  HemisphereQuadrature(G&& g, const Direction& center, double width, double tolerance,
+                       std::size_t most_cells = 200000) {
     cells_.push_back({0, 1, 0, kTurn});
     cells_[0].value = gauss(g, cells_[0]);
     for (std::size_t at = 0; at < cells_.size(); ++at) {  // children come later in the list
       const Cell& c = cells_[at];
       const double turn = turn_distance(c, center), z = 1 - 0.5 * (c.q0 + c.q1);
-      if (std::max(polar_side(c), turn_side(c)) > kLargest) halve(g, at);
-      else if (polar_side(c) > std::max(width * std::max(center.z, 0.02), 0.5 * std::max(polar_distance(c, center), turn))) split(g, at, true);
-      else if (turn_side(c) > std::max(width * (z + center.z), 0.5 * turn)) split(g, at, false);
+      if (std::max(polar_side(c), turn_side(c)) > kLargest)
+        halve(g, at);
+      else if (polar_side(c) >
+               std::max(width * std::max(center.z, 0.02), 0.5 * std::max(polar_distance(c, center), turn)))
+        split(g, at, true);
+      else if (turn_side(c) > std::max(width * (z + center.z), 0.5 * turn))
+        split(g, at, false);
     }
     for (int side = 0; side < 2; ++side)  // every cell's error from its halves, both ways
       for (std::size_t at = 0, n = cells_.size(); at < n; ++at)
@@ -75,7 +80,9 @@ class HemisphereQuadrature {
     return phi < 0 ? phi + kTurn : phi;
   }
   /// Length of the longer side on the sphere, and which it is.
-  static double polar_side(const Cell& c) { return 2 * (std::asin(std::sqrt(0.5 * c.q1)) - std::asin(std::sqrt(0.5 * c.q0))); }
+  static double polar_side(const Cell& c) {
+    return 2 * (std::asin(std::sqrt(0.5 * c.q1)) - std::asin(std::sqrt(0.5 * c.q0)));
+  }
   static double turn_side(const Cell& c) { return (c.phi1 - c.phi0) * std::sqrt(c.q1 * (2 - c.q1)); }
   /// How far a cell lies from a direction, in zenith angle and around the zenith.
   static double polar_distance(const Cell& c, const Direction& to) {
@@ -91,8 +98,10 @@ class HemisphereQuadrature {
   void split(G& g, std::size_t at, bool polar) {
     const Cell parent = cells_[at];
     Cell a = parent, b = parent;
-    if (polar) a.q1 = b.q0 = 0.5 * (parent.q0 + parent.q1);
-    else a.phi1 = b.phi0 = 0.5 * (parent.phi0 + parent.phi1);
+    if (polar)
+      a.q1 = b.q0 = 0.5 * (parent.q0 + parent.q1);
+    else
+      a.phi1 = b.phi0 = 0.5 * (parent.phi0 + parent.phi1);
     a.value = gauss(g, a);
     b.value = gauss(g, b);
     // Halves that agree with their whole by chance (a kink along a side) still inherit a part of its error.
@@ -133,11 +142,14 @@ class HemisphereQuadrature {
   /// Gauss-Legendre, 4 × 4 nodes.
   template <class G>
   static double gauss(G& g, const Cell& c) {
-    constexpr std::array<double, 4> x{-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480, 0.86113631159405257522};
-    constexpr std::array<double, 4> w{0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263, 0.34785484513745385737};
+    constexpr std::array<double, 4> x{-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480,
+                                      0.86113631159405257522};
+    constexpr std::array<double, 4> w{0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263,
+                                      0.34785484513745385737};
     std::array<double, 16> ix, iy, iz, weight;
     for (std::size_t k = 0; k < 16; ++k) {
-      const double q = 0.5 * (c.q0 + c.q1) + 0.5 * (c.q1 - c.q0) * x[k / 4], phi = 0.5 * (c.phi0 + c.phi1) + 0.5 * (c.phi1 - c.phi0) * x[k % 4];
+      const double q = 0.5 * (c.q0 + c.q1) + 0.5 * (c.q1 - c.q0) * x[k / 4],
+                   phi = 0.5 * (c.phi0 + c.phi1) + 0.5 * (c.phi1 - c.phi0) * x[k % 4];
       const double r = std::sqrt(q * (2 - q));
       ix[k] = r * std::cos(phi);
       iy[k] = r * std::sin(phi);
@@ -146,7 +158,9 @@ class HemisphereQuadrature {
     }
     Lanes sum(0.0);
     for (std::size_t k = 0; k < 16; k += Lanes::size)
-      sum += Lanes::load_unaligned(&weight[k]) * g(UnitVector<Lanes>{Lanes::load_unaligned(&ix[k]), Lanes::load_unaligned(&iy[k]), Lanes::load_unaligned(&iz[k])});
+      sum += Lanes::load_unaligned(&weight[k]) *
+             g(UnitVector<Lanes>{Lanes::load_unaligned(&ix[k]), Lanes::load_unaligned(&iy[k]),
+                                 Lanes::load_unaligned(&iz[k])});
     return xsimd::hadd(sum) * (c.q1 - c.q0) * (c.phi1 - c.phi0);
   }
 

@@ -47,7 +47,8 @@ std::vector<std::vector<double>> parameter_grid(const ModelInfo& info) {
     }
   for (const std::size_t corner : {1, 2}) {
     grid.push_back(middle);
-    for (std::size_t p = 0; p < choices.size(); ++p) grid.back()[p] = choices[p][std::min(corner, choices[p].size() - 1)];
+    for (std::size_t p = 0; p < choices.size(); ++p)
+      grid.back()[p] = choices[p][std::min(corner, choices[p].size() - 1)];
   }
   return grid;
 }
@@ -82,11 +83,13 @@ TEST_CASE("Every model is finite, non-negative and reciprocal over its box, graz
           for (const double phi : {0.0, 90.0, 180.0}) {
             const Directions<double> w = directions_from_deg(ti, to, phi, 20.0), back = swapped(w);
             const double f = evaluate(brdf, w, kMetal, kUm), g = evaluate(brdf, back, kMetal, kUm);
-            INFO(spec.info().name << " " << values[0] << " at " << ti << " " << to << " " << phi << ": " << f << " " << g);
+            INFO(spec.info().name << " " << values[0] << " at " << ti << " " << to << " " << phi << ": " << f << " "
+                                  << g);
             REQUIRE(std::isfinite(f));
             REQUIRE(f >= 0);
             if (spec.info().reciprocal) REQUIRE(std::abs(f - g) <= 1e-12 * f);
-            const float fast = evaluate(lanes, spread<FloatLanes>(w), spread<FloatLanes>(kMetal), FloatLanes(float(kUm))).get(0);
+            const float fast =
+                evaluate(lanes, spread<FloatLanes>(w), spread<FloatLanes>(kMetal), FloatLanes(float(kUm))).get(0);
             REQUIRE(fast >= 0);
             if (f < 1e30) REQUIRE(std::isfinite(fast));
           }
@@ -98,7 +101,8 @@ TEST_CASE("Derivatives come out of the models' own code", "[brdf]") {
   for (const ModelSpec& spec : specs())
     for (const double theta : {0.0, 30.0, 75.0}) {
       std::vector<double> values;
-      for (const ParameterInfo& p : spec.info().parameters) values.push_back(p.linear ? 0.4 : std::pow(p.fit_lo * p.fit_hi * p.fit_hi, 1.0 / 3));
+      for (const ParameterInfo& p : spec.info().parameters)
+        values.push_back(p.linear ? 0.4 : std::pow(p.fit_lo * p.fit_hi * p.fit_hi, 1.0 / 3));
       const Directions<double> w = directions_from_deg(theta, theta + 3, 175.0);
       std::vector<J> jets;
       for (std::size_t i = 0; i < values.size(); ++i) jets.emplace_back(values[i], int(i));
@@ -108,8 +112,9 @@ TEST_CASE("Derivatives come out of the models' own code", "[brdf]") {
         const double step = 1e-5 * values[i];
         above[i] += step;
         below[i] -= step;
-        const double difference =
-            (evaluate(make_brdf<double>(spec, above), w, kMetal, kUm) - evaluate(make_brdf<double>(spec, below), w, kMetal, kUm)) / (2 * step);
+        const double difference = (evaluate(make_brdf<double>(spec, above), w, kMetal, kUm) -
+                                   evaluate(make_brdf<double>(spec, below), w, kMetal, kUm)) /
+                                  (2 * step);
         INFO(spec.info().name << " d/d" << spec.info().parameters[i].name << " at " << theta);
         CHECK(f.v[int(i)] == Approx(difference).epsilon(1e-6).margin(1e-9 * f.a / values[i]));
       }
@@ -125,11 +130,12 @@ TEST_CASE("Known values", "[brdf]") {
   // (31) at the normal: kd R0/π + ks R0/(4 m √(2π)).
   const std::vector<double> values{0.2, 0.3, 0.7};
   const double r0 = kMetal.r0();
-  CHECK(evaluate(make_brdf<double>({ModelId::pseudo_realistic}, values), directions_from_deg(0.0, 0.0, 0.0), kMetal, kUm) ==
+  CHECK(evaluate(make_brdf<double>({ModelId::pseudo_realistic}, values), directions_from_deg(0.0, 0.0, 0.0), kMetal,
+                 kUm) ==
         Approx(0.3 * r0 / kPi<double> + 0.7 * r0 / (4 * 0.2 * std::sqrt(2 * kPi<double>))).epsilon(1e-14));
   // Torrance-Sparrow at the normal: F/(4 π α²), α² = 2m².
-  CHECK(evaluate(make_brdf<double>({ModelId::torrance_sparrow}, values), directions_from_deg(0.0, 0.0, 0.0), kMetal, kUm) ==
-        Approx(0.3 / kPi<double> + 0.7 * r0 / (4 * kPi<double> * 0.08)).epsilon(1e-14));
+  CHECK(evaluate(make_brdf<double>({ModelId::torrance_sparrow}, values), directions_from_deg(0.0, 0.0, 0.0), kMetal,
+                 kUm) == Approx(0.3 / kPi<double> + 0.7 * r0 / (4 * kPi<double> * 0.08)).epsilon(1e-14));
 }
 
 TEST_CASE("What a user may get wrong is refused", "[brdf]") {

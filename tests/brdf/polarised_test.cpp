@@ -124,7 +124,8 @@ TEST_CASE("A facet's Mueller matrix equals the one from its plane by cross produ
   double worst = 0, worst_components = 0;
   for (const Interface<double>& surface : kSurfaces)
     for (int draw = 0; draw < 300; ++draw) {
-      const double ti = 1 + 88 * uniform(random), to = 1 + 88 * uniform(random), phi = 3 + 354 * uniform(random), phi_i = 360 * uniform(random);
+      const double ti = 1 + 88 * uniform(random), to = 1 + 88 * uniform(random), phi = 3 + 354 * uniform(random),
+                   phi_i = 360 * uniform(random);
       const V i = direction(ti, phi_i), o = direction(to, phi_i + phi), h = (i + o).normalized();
       const auto [r_s, r_p] = amplitudes(i.dot(h), surface.n, surface.k);
       const M4 truth = mueller_by_kronecker(facet_jones_by_vectors(i, o, h, r_s, r_p));
@@ -132,15 +133,18 @@ TEST_CASE("A facet's Mueller matrix equals the one from its plane by cross produ
       const M4 ours = matrix(facet_polarisation(w, azimuth_from_deg(phi), surface));
       CHECK(truth(0, 0) == Approx(surface.reflectance(w.cos_d)).epsilon(1e-10));
       worst = std::max(worst, worst_element(ours, truth / truth(0, 0)));
-      worst_components = std::max(worst_components, worst_element(ours, matrix(facet_polarisation(w, azimuth_of(w), surface))));
+      worst_components =
+          std::max(worst_components, worst_element(ours, matrix(facet_polarisation(w, azimuth_of(w), surface))));
     }
   INFO("largest difference " << worst << "; azimuth from components " << worst_components);
   CHECK(worst < 1e-10);  // of the vectors' cross products
   CHECK(worst_components < 1e-12);
 }
 
-TEST_CASE("Every model that states polarisation: m11 is evaluate(), matrices are realisable and reciprocal", "[polarised]") {
-  const M4 q = Eigen::Vector4d(1, 1, -1, 1).asDiagonal();  // a field run backwards, in frames of its own: J → Z·Jᵀ·Z, Z = diag(1, -1)
+TEST_CASE("Every model that states polarisation: m11 is evaluate(), matrices are realisable and reciprocal",
+          "[polarised]") {
+  const M4 q = Eigen::Vector4d(1, 1, -1, 1)
+                   .asDiagonal();  // a field run backwards, in frames of its own: J → Z·Jᵀ·Z, Z = diag(1, -1)
   REQUIRE(stated().size() > 25);
   for (const Named& one : stated()) {
     const Brdf<double> brdf = make_brdf<double>(one.spec, one.values);
@@ -148,8 +152,8 @@ TEST_CASE("Every model that states polarisation: m11 is evaluate(), matrices are
       for (const double ti : {0.0, 1e-5, 35.0, 56.31, 89.9})
         for (const double to : {0.0, 35.0, 70.0, 89.9})
           for (const double phi : {0.0, 1e-6, 77.0, 180.0, 301.0}) {
-            INFO(one.spec.info().name << " " << one.spec.variant() << " n " << surface.n << " k " << surface.k << " at " << ti << " "
-                                      << to << " " << phi);
+            INFO(one.spec.info().name << " " << one.spec.variant() << " n " << surface.n << " k " << surface.k << " at "
+                                      << ti << " " << to << " " << phi);
             const auto w = directions_from_deg(ti, to, phi);
             const double f = evaluate(brdf, w, surface, kUm);
             const Mueller<double> raw = evaluate_mueller(brdf, w, azimuth_from_deg(phi), surface, kUm);
@@ -160,7 +164,9 @@ TEST_CASE("Every model that states polarisation: m11 is evaluate(), matrices are
             REQUIRE(m.cwiseAbs().maxCoeff() <= 1 + 1e-14);
             REQUIRE(least_eigenvalue(m) > -1e-14);
             if (!one.spec.reciprocal()) continue;
-            const M4 back = matrix(evaluate_mueller(brdf, directions_from_deg(to, ti, -phi), azimuth_from_deg(-phi), surface, kUm)) / f;
+            const M4 back = matrix(evaluate_mueller(brdf, directions_from_deg(to, ti, -phi), azimuth_from_deg(-phi),
+                                                    surface, kUm)) /
+                            f;
             REQUIRE(worst_element(back, q * m.transpose() * q) < 1e-11);
           }
   }
@@ -175,12 +181,14 @@ TEST_CASE("Planes that are not defined: normal, retro-reflection, mirror", "[pol
     CHECK(worst_element(at(0, 0, 180, surface), turned_over) < 1e-15);
     for (const double theta : {0.0, 1e-8, 10.0, 56.31, 89.9999}) {
       INFO(surface.n << " + " << surface.k << "i at " << theta);
-      CHECK(worst_element(at(theta, theta, 0, surface), turned_over) < 1e-14);                          // i = o exactly
+      CHECK(worst_element(at(theta, theta, 0, surface), turned_over) < 1e-14);  // i = o exactly
       const Mueller<double> mirror = reflection_mueller(cos_deg(theta), surface);
-      CHECK(worst_element(at(theta, theta, 180, surface), matrix(mirror) / mirror.m[0][0]) < 1e-13);  // h = normal exactly
+      CHECK(worst_element(at(theta, theta, 180, surface), matrix(mirror) / mirror.m[0][0]) <
+            1e-13);  // h = normal exactly
     }
     // Continuous through them.
-    for (const double phi : {0.0, 90.0, 200.0}) CHECK(worst_element(at(0, 40, phi, surface), at(1e-7, 40, phi, surface)) < 1e-6);
+    for (const double phi : {0.0, 90.0, 200.0})
+      CHECK(worst_element(at(0, 40, phi, surface), at(1e-7, 40, phi, surface)) < 1e-6);
     for (const double step : {1e-4, 1e-7, 1e-10})
       for (const auto& [dt, dp] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {0.6, -0.8}})
         CHECK(worst_element(at(40, 40, 0, surface), at(40 + dt * step, 40, dp * step, surface)) < 0.1 * step);
@@ -194,12 +202,14 @@ TEST_CASE("Planes that are not defined: normal, retro-reflection, mirror", "[pol
 
 TEST_CASE("Brewster's angle on a rough dielectric: the mirror direction is fully s, m12 = +1", "[polarised]") {
   const double brewster = std::atan(1.5) * 180 / kPi<double>;
-  const auto m = facet_polarisation(directions_from_deg(brewster, brewster, 180.0), azimuth_from_deg(180.0), kSurfaces[0]);
+  const auto m =
+      facet_polarisation(directions_from_deg(brewster, brewster, 180.0), azimuth_from_deg(180.0), kSurfaces[0]);
   CHECK(m.m[0][1] == Approx(1).epsilon(1e-14));
   CHECK(m.m[1][0] == Approx(1).epsilon(1e-14));
   const Brdf<double> brdf{TorranceSparrow<double>{0.3}, 0, 1};
   const auto linear = [&](double cosine, double sine) {
-    return evaluate_linear(brdf, directions_from_deg(brewster, brewster, 180.0), azimuth_from_deg(180.0), kSurfaces[0], kUm, {cosine, sine});
+    return evaluate_linear(brdf, directions_from_deg(brewster, brewster, 180.0), azimuth_from_deg(180.0), kSurfaces[0],
+                           kUm, {cosine, sine});
   };
   CHECK(linear(0, 1) < 1e-28 * linear(1, 0));
 }
@@ -237,9 +247,12 @@ TEST_CASE("Stogryn 1967: the thesis's two expressions out of the plane, R_s and 
           const V q_i(s, 0, -c), q_ip(c, 0, s), q_is(0, -1, 0), q_r = direction(to, 180 + phi);
           const Frame q_rf = frame(q_r, V::UnitZ());
           const Polarised<double> r = fresnel(w.cos_d, surface.n, surface.k);
-          const double divisor = square(q_rf.p.dot(q_i)) + square(q_rf.s.dot(q_i)), p2 = square(q_ip.dot(q_r)), s2 = square(q_is.dot(q_r));
+          const double divisor = square(q_rf.p.dot(q_i)) + square(q_rf.s.dot(q_i)), p2 = square(q_ip.dot(q_r)),
+                       s2 = square(q_is.dot(q_r));
           const double rough = BeckmannKirchhoff<double>{1e4 * alpha, 2e4, KirchhoffForm::rough_limit}.shape(w, kUm);
-          const auto given = [&](double ca, double sa) { return evaluate_linear(exact, w, azimuth, surface, kUm, {ca, sa}); };
+          const auto given = [&](double ca, double sa) {
+            return evaluate_linear(exact, w, azimuth, surface, kUm, {ca, sa});
+          };
           CHECK(given(1, 0) == Approx(rough * (r.s * p2 + r.p * s2) / divisor).epsilon(1e-9).margin(1e-12 * rough));
           CHECK(given(0, 1) == Approx(rough * (r.p * p2 + r.s * s2) / divisor).epsilon(1e-9).margin(1e-12 * rough));
           const Polarised<double> out = stogryn_out_of_plane(w, azimuth.sin_phi, azimuth.cos_phi(), surface);
@@ -303,7 +316,8 @@ TEST_CASE("Refracted light keeps the facet's plane: vectors, and straight on", "
   }
   CHECK(compared > 200);
   const UnitVector<double> down{0.6, 0, 0.8}, on{-0.6, 0, -0.8};
-  CHECK(worst_element(matrix(normalised_mueller(refraction_jones(down, on, azimuth_from_deg(180.0)))), M4::Identity()) < 1e-15);
+  CHECK(worst_element(matrix(normalised_mueller(refraction_jones(down, on, azimuth_from_deg(180.0)))), M4::Identity()) <
+        1e-15);
 }
 
 TEST_CASE("Polarised values in float lanes, double and 50 digits; derivatives", "[polarised]") {
@@ -320,7 +334,8 @@ TEST_CASE("Polarised values in float lanes, double and 50 digits; derivatives", 
       const auto azimuth = azimuth_from_deg(phi);
       const Digits50 theta_i(ti), theta_o(to), phi50(phi);
       const Interface<Digits50> wide{Digits50(surface.n), Digits50(surface.k)};
-      const auto exact = facet_polarisation(directions_from_deg(theta_i, theta_o, phi50), azimuth_from_deg(phi50), wide);
+      const auto exact =
+          facet_polarisation(directions_from_deg(theta_i, theta_o, phi50), azimuth_from_deg(phi50), wide);
       const auto ours = facet_polarisation(w, azimuth, surface);
       // Float at exactly the numbers it received.
       const auto f = [](double x) { return double(float(x)); };
@@ -329,7 +344,8 @@ TEST_CASE("Polarised values in float lanes, double and 50 digits; derivatives", 
       const Azimuth<double> af{f(azimuth.sin_phi), f(azimuth.one_plus_cos)};
       const Interface<double> sf{f(surface.n), f(surface.k)};
       const auto rounded = facet_polarisation(wf, af, sf);
-      const auto fast = facet_polarisation(spread<FloatLanes>(w), spread<FloatLanes>(azimuth), spread<FloatLanes>(surface));
+      const auto fast =
+          facet_polarisation(spread<FloatLanes>(w), spread<FloatLanes>(azimuth), spread<FloatLanes>(surface));
       for (int r = 0; r < 4; ++r)
         for (int c = 0; c < 4; ++c) {
           worst_double = std::max(worst_double, std::abs(ours.m[r][c] - exact.m[r][c].convert_to<double>()));
@@ -342,7 +358,8 @@ TEST_CASE("Polarised values in float lanes, double and 50 digits; derivatives", 
       const double linear = evaluate_linear(make_brdf<double>(spec, values), w, azimuth, surface, kUm, light);
       worst_linear = std::max(worst_linear, std::abs(linear - reference.linear) / reference.linear);
     }
-  INFO("normalised elements: double " << worst_double << ", float " << worst_float << "; linear light, relative " << worst_linear);
+  INFO("normalised elements: double " << worst_double << ", float " << worst_float << "; linear light, relative "
+                                      << worst_linear);
   CHECK(worst_double < 1e-12);
   CHECK(worst_float < 5e-6);
   CHECK(worst_linear < 1e-12);
@@ -355,7 +372,9 @@ TEST_CASE("Polarised values in float lanes, double and 50 digits; derivatives", 
   const auto duals = facet_polarisation(w, azimuth, Interface<D>{D(0.9, 0), D(2.3, 1)});
   const double step = 1e-6;
   for (int v = 0; v < 2; ++v) {
-    const auto shifted = [&](double by) { return facet_polarisation(w, azimuth, Interface<double>{0.9 + (v == 0) * by, 2.3 + (v == 1) * by}); };
+    const auto shifted = [&](double by) {
+      return facet_polarisation(w, azimuth, Interface<double>{0.9 + (v == 0) * by, 2.3 + (v == 1) * by});
+    };
     const auto above = shifted(step), below = shifted(-step);
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c) {
@@ -384,5 +403,6 @@ TEST_CASE("What depolarises, what polarises, and what does not say", "[polarised
   CHECK_FALSE(states_polarisation(make_brdf<double>(in_plane, one)));
   // A mirror's delta: energies of the interface.
   const Brdf<double> mirror{Mirror{}, 0, 0.5};
-  CHECK(worst_element(matrix(coherent_mueller(mirror, 0.4, kSurfaces[0], kUm)), 0.5 * matrix(reflection_mueller(0.4, kSurfaces[0]))) < 1e-16);
+  CHECK(worst_element(matrix(coherent_mueller(mirror, 0.4, kSurfaces[0], kUm)),
+                      0.5 * matrix(reflection_mueller(0.4, kSurfaces[0]))) < 1e-16);
 }

@@ -33,16 +33,28 @@ inline double between(const ParameterInfo& p, double share) { return p.fit_lo * 
 inline std::vector<double> values_at(const ModelInfo& info, double share, double kd) {
   std::vector<double> values;
   for (const ParameterInfo& p : info.parameters) {
-    if (p.name == "kd") values.push_back(info.id == ModelId::lambert ? 0.8 : kd);
-    else if (p.linear) values.push_back(p.name == "ks" ? 1.0 : 0.1);
-    else if (p.name == "alpha_y" || p.name == "nv") values.push_back(between(p, 0.15 + 0.7 * share));
-    else if (info.id == ModelId::lafortune_1997 && p.name != "n")  // leaning the less the narrower, or nothing is left of the lobe
-      values.push_back(std::exp((p.name == "c_x" ? -0.3 : p.name == "c_y" ? -0.5 : 0) / std::sqrt(between(info.parameters[3], share))));
-    else if (info.id == ModelId::sgd_2012 && p.name == "alpha") values.push_back(between(p, 0.3 + 0.7 * share));  // its core is alpha wide, its lobe √alpha
-    else if (info.id == ModelId::sgd_2012 && p.name == "lambda") values.push_back(0.5);
-    else if (info.id == ModelId::sgd_2012 && p.name == "theta0_rad") values.push_back(1);
-    else if (info.id == ModelId::sgd_2012 && p.name != "alpha" && p.name != "p") values.push_back(1);
-    else values.push_back(between(p, share));
+    if (p.name == "kd")
+      values.push_back(info.id == ModelId::lambert ? 0.8 : kd);
+    else if (p.linear)
+      values.push_back(p.name == "ks" ? 1.0 : 0.1);
+    else if (p.name == "alpha_y" || p.name == "nv")
+      values.push_back(between(p, 0.15 + 0.7 * share));
+    else if (info.id == ModelId::lafortune_1997 &&
+             p.name != "n")  // leaning the less the narrower, or nothing is left of the lobe
+      values.push_back(std::exp((p.name == "c_x"   ? -0.3
+                                 : p.name == "c_y" ? -0.5
+                                                   : 0) /
+                                std::sqrt(between(info.parameters[3], share))));
+    else if (info.id == ModelId::sgd_2012 && p.name == "alpha")
+      values.push_back(between(p, 0.3 + 0.7 * share));  // its core is alpha wide, its lobe √alpha
+    else if (info.id == ModelId::sgd_2012 && p.name == "lambda")
+      values.push_back(0.5);
+    else if (info.id == ModelId::sgd_2012 && p.name == "theta0_rad")
+      values.push_back(1);
+    else if (info.id == ModelId::sgd_2012 && p.name != "alpha" && p.name != "p")
+      values.push_back(1);
+    else
+      values.push_back(between(p, share));
   }
   return values;
 }
@@ -66,7 +78,8 @@ inline std::vector<ModelSpec> sampled_specs() {
   return all;
 }
 
-inline std::vector<SamplingCase> sampling_cases(const std::vector<double>& shares, const std::vector<double>& thetas_deg, double kd = 0,
+inline std::vector<SamplingCase> sampling_cases(const std::vector<double>& shares,
+                                                const std::vector<double>& thetas_deg, double kd = 0,
                                                 bool retro = false) {
   std::vector<SamplingCase> all;
   for (const ModelSpec& plain : sampled_specs())
@@ -77,12 +90,15 @@ inline std::vector<SamplingCase> sampling_cases(const std::vector<double>& share
         spec.retro = retro && spec.id != ModelId::lambert;
         const ModelInfo& info = spec.info();
         all.push_back({spec, values_at(info, share, kd), theta,
-                       fmt::format("{} {}{} at {} of its box, {} deg", info.name, info.shadowings.empty() ? "" : name_of(spec.shadowing),
+                       fmt::format("{} {}{} at {} of its box, {} deg", info.name,
+                                   info.shadowings.empty() ? "" : name_of(spec.shadowing),
                                    spec.form > 0 ? spec.variant() : "", share, theta)});
       }
   return all;
 }
 
-inline UnitVector<double> lane(const UnitVector<DoubleLanes>& v, std::size_t k) { return {v.x.get(k), v.y.get(k), v.z.get(k)}; }
+inline UnitVector<double> lane(const UnitVector<DoubleLanes>& v, std::size_t k) {
+  return {v.x.get(k), v.y.get(k), v.z.get(k)};
+}
 
 }  // namespace gonio::test

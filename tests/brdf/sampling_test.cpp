@@ -72,16 +72,21 @@ double share_below(F&& height) {
   std::vector<std::pair<double, double>> all = points;
   for (std::size_t k = 1; k + 1 < points.size(); ++k) {
     const double sign = points[k].second > 0 ? 1 : -1;
-    if (sign * points[k - 1].second < sign * points[k].second || sign * points[k + 1].second < sign * points[k].second) continue;
+    if (sign * points[k - 1].second < sign * points[k].second || sign * points[k + 1].second < sign * points[k].second)
+      continue;
     double a = points[k - 1].first, b = points[k + 1].first;
     const double golden = 0.38196601125010515;
     double x = a + golden * (b - a), y = b - golden * (b - a), fx = sign * height(x), fy = sign * height(y);
     for (int step = 0; step < 25 && fx > 0 && fy > 0; ++step) {
-      if (fx < fy) b = y, y = x, fy = fx, x = a + golden * (b - a), fx = sign * height(x);
-      else a = x, x = y, fx = fy, y = b - golden * (b - a), fy = sign * height(y);
+      if (fx < fy)
+        b = y, y = x, fy = fx, x = a + golden * (b - a), fx = sign * height(x);
+      else
+        a = x, x = y, fx = fy, y = b - golden * (b - a), fy = sign * height(y);
     }
-    if (fx <= 0) all.push_back({x, sign * fx});
-    else if (fy <= 0) all.push_back({y, sign * fy});
+    if (fx <= 0)
+      all.push_back({x, sign * fx});
+    else if (fy <= 0)
+      all.push_back({y, sign * fy});
   }
   std::sort(all.begin(), all.end());
   double sum = 0, last = 0;
@@ -111,7 +116,8 @@ double empty_share_of(const Sampler& sampler, const V& o, double u0) {
     });
   };
   std::vector<double> cuts{0, 1e-8, 1e-6, 1e-4, 0.01, 0.99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-8, 1};
-  for (int k = 1; k < 48; ++k) cuts.push_back(k / 48.0);  // the share has roots' kinks: one rule over few intervals agrees with itself by chance
+  for (int k = 1; k < 48; ++k)
+    cuts.push_back(k / 48.0);  // the share has roots' kinks: one rule over few intervals agrees with itself by chance
   std::sort(cuts.begin(), cuts.end());
   return integrate_adaptively(inner, cuts, 1, 3e-8, 400).value[0];
 }
@@ -120,7 +126,8 @@ double empty_share(const LobeSampler<double>& lobe, const V& o) {
   if (std::holds_alternative<CosineSampler<double>>(lobe)) return 0;
   if (const auto* one = std::get_if<KirchhoffSampler<double>>(&lobe)) {
     const auto shares = one->shares_at(o);
-    return shares.facets * empty_share_of(one->facets(), o, 0.5) + (0.9 - shares.facets) * empty_share_of(shares.waves, o, 0.5);
+    return shares.facets * empty_share_of(one->facets(), o, 0.5) +
+           (0.9 - shares.facets) * empty_share_of(shares.waves, o, 0.5);
   }
   if (const auto* one = std::get_if<AshikhminShirleySampler<double>>(&lobe))
     return (1 - one->diffuse_share) * empty_share_of(*one, o, 1 - 1e-9);
@@ -148,15 +155,18 @@ Counted count(const Drawn& drawn, const HemisphereQuadrature& density, int sampl
     const auto sample = drawn.lanes.sample(drawn.lanes_o, u0, u1, u2);
     const auto lit = sample.pdf_per_sr > Lanes(0.0);
     const UnitVector<Lanes>& i = sample.direction;
-    const UnitVector<Lanes> safe{select(lit, i.x, Lanes(0.0)), select(lit, i.y, Lanes(0.0)), select(lit, i.z, Lanes(1.0))};
+    const UnitVector<Lanes> safe{select(lit, i.x, Lanes(0.0)), select(lit, i.y, Lanes(0.0)),
+                                 select(lit, i.z, Lanes(1.0))};
     const Lanes weight = select(lit, drawn.f_cos(safe) / select(lit, sample.pdf_per_sr, Lanes(1.0)), Lanes(0.0));
     for (std::size_t k = 0; k < Lanes::size; ++k) {
       const double one = weight.get(k);
       result.mean += one;
       squares += one * one;
       result.largest = std::max(result.largest, one);
-      if (sample.pdf_per_sr.get(k) > 0) result.seen[density.bin_of(lane(i, k))] += 1;
-      else result.empty += 1;
+      if (sample.pdf_per_sr.get(k) > 0)
+        result.seen[density.bin_of(lane(i, k))] += 1;
+      else
+        result.empty += 1;
     }
   }
   result.empty /= samples;
@@ -182,7 +192,9 @@ double p_of_histogram(const Counted& counted, const std::vector<double>& bins, d
 
 /// Bounds of `count` comparisons of which all hold with 99 %.
 double least_p(std::size_t count) { return -std::expm1(std::log1p(-kFalseAlarmOfAll) / double(count)); }
-double most_z(std::size_t count) { return boost::math::quantile(boost::math::complement(boost::math::normal(), 0.5 * least_p(count))); }
+double most_z(std::size_t count) {
+  return boost::math::quantile(boost::math::complement(boost::math::normal(), 0.5 * least_p(count)));
+}
 /// How many of `count` may be beyond a bound that each passes with the chance p.
 double most_beyond(std::size_t count, double p) {
   return boost::math::quantile(boost::math::complement(boost::math::binomial(double(count), p), kFalseAlarmOfAll));
@@ -200,7 +212,8 @@ struct Density {
 };
 std::string key_of(const SamplingCase& one, const Drawn& drawn) {
   const auto* facets = std::get_if<FacetSampler<double>>(&drawn.mixture.lobe);
-  return fmt::format("{} {} {} {} {}", one.spec.info().name, one.spec.form, facets ? int(facets->visibility) : -1, fmt::join(one.values, " "), one.theta_o_deg);
+  return fmt::format("{} {} {} {} {}", one.spec.info().name, one.spec.form, facets ? int(facets->visibility) : -1,
+                     fmt::join(one.values, " "), one.theta_o_deg);
 }
 
 void check_all(const std::vector<SamplingCase>& cases, int samples) {
@@ -209,7 +222,8 @@ void check_all(const std::vector<SamplingCase>& cases, int samples) {
   for (std::size_t c = 0; c < cases.size(); ++c) {
     const Drawn drawn(cases[c]);
     const auto& [density, empty] = densities.try_emplace(key_of(cases[c], drawn), drawn).first->second;
-    INFO(fmt::format("{}: density integrates to {:.9f} ± {:.1e}, 1 - empty {:.9f}", cases[c].name, density.integral(), density.error(), 1 - empty));
+    INFO(fmt::format("{}: density integrates to {:.9f} ± {:.1e}, 1 - empty {:.9f}", cases[c].name, density.integral(),
+                     density.error(), 1 - empty));
     CHECK(std::abs(density.integral() - (1 - empty)) < 1e-6);
 
     const Counted counted = count(drawn, density, samples, c);
@@ -224,17 +238,19 @@ void check_all(const std::vector<SamplingCase>& cases, int samples) {
     CHECK(p > least_p(cases.size()));
     beyond_p += p < 0.01;
 
-    const HemisphereQuadrature energy([&](const UnitVector<Lanes>& i) { return drawn.f_cos(i); }, drawn.center, drawn.width,
-                                      1e-6 * std::max(counted.mean, 1e-300));
+    const HemisphereQuadrature energy([&](const UnitVector<Lanes>& i) { return drawn.f_cos(i); }, drawn.center,
+                                      drawn.width, 1e-6 * std::max(counted.mean, 1e-300));
     const double expected = energy.integral(), deviation = std::sqrt(counted.variance);
     // Where every weight is the same the quadrature is the worse of the two; what happens to fewer than ten samples no deviation shows.
     const double slack = energy.error() + 3e-6 * expected + 10 * expected / samples;
-    INFO("mean weight " << counted.mean << " ± " << deviation << ", quadrature " << expected << ", largest " << counted.largest);
+    INFO("mean weight " << counted.mean << " ± " << deviation << ", quadrature " << expected << ", largest "
+                        << counted.largest);
     CHECK(std::abs(counted.mean - expected) < most_z(cases.size()) * deviation + slack);
     beyond_3_mean += std::abs(counted.mean - expected) > 3 * deviation + slack;
     if (drawn.brdf.kd == 0 && cases[c].spec.info().reciprocal && !cases[c].spec.retro && !has_delta(drawn.brdf.lobe)) {
       const double phi_deg = 0.4 * 180 / kPi<double>;
-      const Estimate e = directional_reflectance(drawn.brdf.lobe, cases[c].theta_o_deg, {{kMetal}, {kUm}}, 1e-7 * std::max(1.0, expected), phi_deg)[0];
+      const Estimate e = directional_reflectance(drawn.brdf.lobe, cases[c].theta_o_deg, {{kMetal}, {kUm}},
+                                                 1e-7 * std::max(1.0, expected), phi_deg)[0];
       INFO("directional reflectance " << e.value << " ± " << e.error);
       CHECK(std::abs(e.value - expected) < 2e-6 * std::max(1.0, expected) + energy.error() + e.error);
     }
@@ -246,7 +262,8 @@ void check_all(const std::vector<SamplingCase>& cases, int samples) {
 
 }  // namespace
 
-TEST_CASE("Every sampler: density, empty samples, histogram and mean weight, in the middle of the box", "[brdf][sampling]") {
+TEST_CASE("Every sampler: density, empty samples, histogram and mean weight, in the middle of the box",
+          "[brdf][sampling]") {
   check_all(sampling_cases({0.5}, {60, 89}), 1 << 14);
 }
 

@@ -30,16 +30,18 @@ Printed printed(double c, double n, double k) {
 std::array<Real, 4> stokes_of(const C& s, const C& p) {
   const Real r = 1 / std::sqrt(Real(2));
   const auto behind = [&](const C& a, const C& b) { return std::norm(std::conj(a) * s + std::conj(b) * p); };
-  return {behind(1, 0) + behind(0, 1), behind(1, 0) - behind(0, 1), behind(r, r) - behind(r, -r),
-          // right: E_s = cos ωt, E_p = cos(ωt + 90°), clockwise for who sees s to the right, p upwards: E_p = -i·E_s with e^{-iωt}
-          behind(r, C(0, -r)) - behind(r, C(0, r))};
+  return {
+      behind(1, 0) + behind(0, 1), behind(1, 0) - behind(0, 1), behind(r, r) - behind(r, -r),
+      // right: E_s = cos ωt, E_p = cos(ωt + 90°), clockwise for who sees s to the right, p upwards: E_p = -i·E_s with e^{-iωt}
+      behind(r, C(0, -r)) - behind(r, C(0, r))};
 }
 
 void same(const Complex<double>& got, const C& expected, double bar) {
   CHECK(std::abs(C(got.re, got.im) - expected) <= bar);
 }
 
-const std::pair<double, double> kIndices[] = {{1.5, 0}, {1.0001, 0}, {1 / 1.5, 0}, {0.97, 6.7}, {0.2, 3.3}, {4, 0.05}, {1.33, 1e-9}};
+const std::pair<double, double> kIndices[] = {{1.5, 0},   {1.0001, 0}, {1 / 1.5, 0}, {0.97, 6.7},
+                                              {0.2, 3.3}, {4, 0.05},   {1.33, 1e-9}};
 
 }  // namespace
 
@@ -81,7 +83,8 @@ TEST_CASE("An interface's Mueller matrix does to light what its amplitudes do to
       const double flux = refracted_root(c, n, 0.0).re / c;
       for (int i = 0; i < 10; ++i) {
         const C s(gauss(random), gauss(random)), p(gauss(random), gauss(random));
-        const auto in = stokes_of(s, p), out = stokes_of(r.r_s * s, r.r_p * p), through = stokes_of(r.t_s * s, r.t_p * p);
+        const auto in = stokes_of(s, p), out = stokes_of(r.r_s * s, r.r_p * p),
+                   through = stokes_of(r.t_s * s, r.t_p * p);
         const Stokes<double> light{double(in[0]), double(in[1]), double(in[2]), double(in[3])};
         const Stokes<double> got = reflected * light, passed = refracted * light;
         for (int e = 0; e < 4; ++e) {
@@ -102,8 +105,10 @@ TEST_CASE("mueller_of is Jones calculus for any element", "[optics]") {
     const Jones<double> j{draw(), draw(), draw(), draw()};
     const Complex<double> s = draw(), p = draw();
     const auto in = stokes_of(wide(s), wide(p));
-    const auto out = stokes_of(wide(j.ss) * wide(s) + wide(j.sp) * wide(p), wide(j.ps) * wide(s) + wide(j.pp) * wide(p));
-    const Stokes<double> got = mueller_of(j) * Stokes<double>{double(in[0]), double(in[1]), double(in[2]), double(in[3])};
+    const auto out =
+        stokes_of(wide(j.ss) * wide(s) + wide(j.sp) * wide(p), wide(j.ps) * wide(s) + wide(j.pp) * wide(p));
+    const Stokes<double> got =
+        mueller_of(j) * Stokes<double>{double(in[0]), double(in[1]), double(in[2]), double(in[3])};
     for (int e = 0; e < 4; ++e) CHECK(got[e] == Approx(double(out[e])).epsilon(1e-12).margin(1e-12));
     CHECK(unpolarised_intensity_of(j) == Approx(mueller_of(j).m[0][0]).epsilon(1e-15));
     const LinearLight<double> light{std::cos(0.1 * i), std::sin(0.1 * i)};
@@ -127,7 +132,8 @@ TEST_CASE("Known points: Brewster, the mirror at the normal, total reflection, F
   CHECK(reflection_mueller(0.3, perfect_interface<double>()).m[2][2] == -1);
   // Total reflection, Born & Wolf §1.5.4 (60): tan(δ/2) = cos θ·√(sin²θ - n²)/sin²θ, δ = δ_s - δ_p.
   for (const double theta : {42.0, 51.3, 60.0, 89.0}) {
-    const double n = 1 / 1.5, s2 = square(sin_deg(theta)), delta = 2 * std::atan(cos_deg(theta) * std::sqrt(s2 - n * n) / s2);
+    const double n = 1 / 1.5, s2 = square(sin_deg(theta)),
+                 delta = 2 * std::atan(cos_deg(theta) * std::sqrt(s2 - n * n) / s2);
     const Mueller<double> m = reflection_mueller(cos_deg(theta), {n, 0});
     CHECK(m.m[2][2] == Approx(std::cos(delta)).margin(1e-14));
     CHECK(m.m[3][2] == Approx(std::sin(delta)).margin(1e-14));
@@ -162,7 +168,8 @@ TEST_CASE("Linear polarisation at any azimuth: eq. (3), its mean is the unpolari
         const double alpha = kPi<double> * i / steps;
         const LinearLight<double> light{std::cos(alpha), std::sin(alpha)};
         const double share = linear_share(shares, light);
-        const double field = double(std::norm(r.r_s * Real(light.cos_alpha)) + std::norm(r.r_p * Real(light.sin_alpha)));
+        const double field =
+            double(std::norm(r.r_s * Real(light.cos_alpha)) + std::norm(r.r_p * Real(light.sin_alpha)));
         CHECK(share == Approx(field).epsilon(1e-12).margin(1e-30));
         CHECK((reflection_mueller(c, {n, k}) * light.stokes())[0] == Approx(share).epsilon(1e-12).margin(1e-15));
         mean += share / steps;
