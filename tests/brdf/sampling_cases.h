@@ -46,7 +46,7 @@ inline std::vector<double> values_at(const ModelInfo& info, double share, double
                                                    : 0) /
                                 std::sqrt(between(info.parameters[3], share))));
     else if (info.id == ModelId::sgd_2012 && p.name == "alpha")
-      values.push_back(between(p, 0.3 + 0.7 * share));  // its core is alpha wide, its lobe √alpha
+      values.push_back(between(p, 0.5 + 0.5 * share));  // its core is alpha wide, its lobe √alpha
     else if (info.id == ModelId::sgd_2012 && p.name == "lambda")
       values.push_back(0.5);
     else if (info.id == ModelId::sgd_2012 && p.name == "theta0_rad")

