@@ -52,7 +52,7 @@ void jets(benchmark::State& state) {
 BENCHMARK(jets);
 
 using D = Dual<DoubleLanes, 3>;
-[[gnu::flatten]] void dual_loop(const TorranceSparrow<D> lobe, const Interface<D> gold, const PairArrays<double>& a,
+GONIO_ONE_LOOP void dual_loop(const TorranceSparrow<D> lobe, const Interface<D> gold, const PairArrays<double>& a,
                                 double* out) {
   for (std::size_t at = 0; at < kPairs; at += DoubleLanes::size) {
     const D f = lobe_value<D>(lobe, a.lanes<DoubleLanes>(at), gold, D(0.55));

@@ -84,7 +84,7 @@ std::string models_chart(const std::vector<SpeedRow>& rows) {
                         block, style.point, style.colour, style.path);
     ++block;
   }
-  return gnuplot_svg(data + fmt::format("set logscale x\nset grid lc rgb '#dddddd'\nset key outside top center "
+  return gnuplot_svg(data + fmt::format("set logscale x\nset grid lc rgb '#dddddd'\nset key outside top center samplen 1 font ',12' "
                                         "horizontal\nset ytics ({}) font ',11'\nset "
                                         "yrange [0.3:{}.7]\nset xlabel 'ns an evaluation, one thread'\nplot {}\n",
                                         tics, names.size(), plot),

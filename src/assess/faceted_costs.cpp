@@ -44,7 +44,7 @@ double lanes_ns() {
 
 /// 16 wavelengths of each pair, pairs in lanes: the lobe's shape once, R 16 times.
 template <class Lanes>
-[[gnu::flatten]] void sixteen(const TorranceSparrow<Lanes> model,
+GONIO_ONE_LOOP void sixteen(const TorranceSparrow<Lanes> model,
                               const std::array<Interface<Lanes>, kWavelengths>& surfaces,
                               const PairArrays<scalar_t<Lanes>>& pairs, scalar_t<Lanes>* out) {
   for (std::size_t at = 0; at < kPairs; at += Lanes::size) {
@@ -125,7 +125,7 @@ double jet_ns() {
 }
 
 using D = Dual<DoubleLanes, 3>;
-[[gnu::flatten]] void duals(const TorranceSparrow<D> model, const Interface<D> surface, const PairArrays<double>& pairs,
+GONIO_ONE_LOOP void duals(const TorranceSparrow<D> model, const Interface<D> surface, const PairArrays<double>& pairs,
                             double* out) {
   for (std::size_t at = 0; at < kPairs; at += DoubleLanes::size) {
     const D f = lobe_value<D>(model, pairs.lanes<DoubleLanes>(at), surface, D(0.55));
@@ -150,7 +150,7 @@ double dual_ns() {
 
 /// Independent chains of fused multiply-adds, in numbers (lanes) a ns.
 template <class Lanes>
-[[gnu::flatten]] double ceiling() {
+GONIO_ONE_LOOP double ceiling() {
   using S = scalar_t<Lanes>;
   constexpr int kChains = 12, kSteps = 200;
   std::array<Lanes, kChains> x;

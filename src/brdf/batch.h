@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/flush_to_zero.h"
+#include "base/one_loop.h"
 #include "brdf/lanes.h"
 
 namespace gonio {
@@ -21,7 +22,7 @@ inline constexpr int kLobesOwn = -1;  ///< no constant: the lobe's own choice, l
 
 /// Whole batches of one lobe, its choices constants of the loop: what the compiler makes one loop of.
 template <int kShadowing, bool kExact, bool kRetro, class Lanes, class L>
-[[gnu::flatten]] void evaluate_lanes(L lobe, const Lanes scale, const Lanes diffuse, const Interface<Lanes> surface,
+GONIO_ONE_LOOP void evaluate_lanes(L lobe, const Lanes scale, const Lanes diffuse, const Interface<Lanes> surface,
                                      const Lanes wavelength_um, const DirectionPairs<scalar_t<Lanes>> pairs,
                                      std::size_t count, scalar_t<Lanes>* f_per_sr) {
   if constexpr (kShadowing != kLobesOwn) lobe.shadowing = static_cast<Shadowing>(kShadowing);
