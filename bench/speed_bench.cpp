@@ -2,8 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "assess/brdf_speed.h"
-#include "assess/pair_arrays.h"
-#include "base/dual.h"
+#include "assess/derivative_loop.h"
 #include "base/jet.h"
 
 using namespace gonio;
@@ -51,20 +50,11 @@ void jets(benchmark::State& state) {
 }
 BENCHMARK(jets);
 
-using D = Dual<DoubleLanes, 3>;
-GONIO_ONE_LOOP void dual_loop(const TorranceSparrow<D> lobe, const Interface<D> gold, const PairArrays<double>& a,
-                                double* out) {
-  for (std::size_t at = 0; at < kPairs; at += DoubleLanes::size) {
-    const D f = lobe_value<D>(lobe, a.lanes<DoubleLanes>(at), gold, D(0.55));
-    f.a.store_aligned(out + 4 * at);
-    for (std::size_t i = 0; i < 3; ++i) f.v[i].store_aligned(out + 4 * at + (i + 1) * DoubleLanes::size);
-  }
-}
 void duals(benchmark::State& state) {
   PairArrays<double> a;
   std::vector<double, xsimd::aligned_allocator<double, 64>> out(4 * kPairs);
   for (auto _ : state) {
-    dual_loop({D(DoubleLanes(0.3), 0)}, {D(DoubleLanes(0.21), 1), D(DoubleLanes(3.272), 2)}, a, out.data());
+    derivatives_in_lanes(0.3, 0.21, 3.272, a, out.data());
     benchmark::ClobberMemory();
   }
   done(state);

@@ -41,7 +41,7 @@ struct Counted {
 /// 1 + 2Λ as in lanes of double; the rest is on no path that is counted.
 template <>
 struct Special<Counted> {
-  static Ratio<Counted> smith_visible(const Counted& s2) { return smith_fraction<double>(s2); }
+  static Ratio<Counted> smith_visible(const Counted& s2) { return smith_fraction<double>(s2).value; }
   static Counted smith_lambda_core(const Counted& s) { return Counted(Special<double>::smith_lambda_core(s.value)); }
   static Counted erfcx(const Counted& x) { return Counted(Special<double>::erfcx(x.value)); }
 };

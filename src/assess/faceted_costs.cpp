@@ -1,8 +1,8 @@
 // The loops behind the ratios of torrance-sparrow.
 #include "assess/brdf_speed.h"
+#include "assess/derivative_loop.h"
 #include "assess/pair_arrays.h"
 #include "assess/timing.h"
-#include "base/dual.h"
 #include "base/jet.h"
 
 namespace gonio {
@@ -124,25 +124,11 @@ double jet_ns() {
   return least_ns(run) / kPairs;
 }
 
-using D = Dual<DoubleLanes, 3>;
-GONIO_ONE_LOOP void duals(const TorranceSparrow<D> model, const Interface<D> surface, const PairArrays<double>& pairs,
-                            double* out) {
-  for (std::size_t at = 0; at < kPairs; at += DoubleLanes::size) {
-    const D f = lobe_value<D>(model, pairs.lanes<DoubleLanes>(at), surface, D(0.55));
-    f.a.store_aligned(out + 4 * at);
-    for (int i = 0; i < 3; ++i)
-      f.v[static_cast<std::size_t>(i)].store_aligned(out + 4 * at +
-                                                     static_cast<std::size_t>(i + 1) * DoubleLanes::size);
-  }
-}
-
 double dual_ns() {
   const PairArrays<double> pairs;
   Array<double> out(4 * kPairs);
-  const TorranceSparrow<D> model{D(DoubleLanes(kAlpha), 0)};
-  const Interface<D> surface{D(DoubleLanes(kN), 1), D(DoubleLanes(kK), 2)};
   const auto run = [&] {
-    duals(model, surface, pairs, out.data());
+    derivatives_in_lanes(kAlpha, kN, kK, pairs, out.data());
     keep(out[0]);
   };
   return least_ns(run) / kPairs;

@@ -69,11 +69,60 @@ Dual<T, N> operator*(const Dual<T, N>& x, const Dual<T, N>& y) {
 }
 template <class T, int N>
 Dual<T, N> operator/(const Dual<T, N>& x, const Dual<T, N>& y) {
-  const T inverse = T(scalar_t<T>(1)) / y.a, ratio = x.a * inverse;
-  Dual<T, N> r(x.a / y.a);
+  const T inverse = T(scalar_t<T>(1)) / y.a, near = x.a * inverse,
+          ratio = multiply_add(multiply_add(T(-near), y.a, x.a), inverse, near);  // one division, its rounding mended
+  Dual<T, N> r(ratio);
   for (int i = 0; i < N; ++i) r.v[i] = inverse * multiply_add(T(-ratio), y.v[i], x.v[i]);
   return r;
 }
+// With a number without derivatives, such as a cosine of the directions: no zeros are carried.
+template <class T, int N>
+Dual<T, N> operator+(const Dual<T, N>& x, const T& y) {
+  Dual<T, N> r(x);
+  r.a += y;
+  return r;
+}
+template <class T, int N>
+Dual<T, N> operator+(const T& x, const Dual<T, N>& y) {
+  return y + x;
+}
+template <class T, int N>
+Dual<T, N> operator*(const Dual<T, N>& x, const T& y) {
+  return chain(x, T(x.a * y), y);
+}
+template <class T, int N>
+Dual<T, N> operator*(const T& x, const Dual<T, N>& y) {
+  return y * x;
+}
+template <class T, int N>
+Dual<T, N> operator/(const Dual<T, N>& x, const T& y) {
+  return x * T(T(scalar_t<T>(1)) / y);
+}
+template <class T, int N>
+Dual<T, N> operator/(const T& x, const Dual<T, N>& y) {
+  const T inverse = T(scalar_t<T>(1)) / y.a, ratio = x * inverse;
+  return chain(y, ratio, T(-ratio * inverse));
+}
+
+template <class T, int N>
+Dual<T, N> multiply_add(const Dual<T, N>& x, const T& y, const Dual<T, N>& z) {
+  Dual<T, N> r(multiply_add(x.a, y, z.a));
+  for (int i = 0; i < N; ++i) r.v[i] = multiply_add(x.v[i], y, z.v[i]);
+  return r;
+}
+
+/// a·b, a fraction with derivatives by its own variables, b by others, those of a first: neither carries zeros for the other's.
+template <class T, int N, int M>
+Dual<T, N + M> joint_product(const Ratio<Dual<T, N>>& a, const Ratio<Dual<T, M>>& b) {
+  const T inverse = T(scalar_t<T>(1)) / (a.under.a * b.under.a);
+  const T f = a.over.a * b.over.a * inverse, a_over = a.over.a * inverse, b_over = b.over.a * inverse,
+          a_share = f * a.under.a * inverse, b_share = f * b.under.a * inverse;
+  Dual<T, N + M> r(f);
+  for (int i = 0; i < N; ++i) r.v[i] = multiply_add(a.over.v[i], b_over, T(-(a.under.v[i] * b_share)));
+  for (int i = 0; i < M; ++i) r.v[N + i] = multiply_add(b.over.v[i], a_over, T(-(b.under.v[i] * a_share)));
+  return r;
+}
+
 template <class T, int N>
 Dual<T, N>& operator+=(Dual<T, N>& x, const Dual<T, N>& y) {
   return x = x + y;
@@ -124,8 +173,19 @@ Dual<T, N> select(bool yes, const Dual<T, N>& a, const Dual<T, N>& b) {
 }
 
 template <class T, int N>
+Dual<T, N> square(const Dual<T, N>& x) {
+  return chain(x, T(x.a * x.a), T(x.a + x.a));
+}
+template <class T, int N>
 Dual<T, N> abs(const Dual<T, N>& x) {
-  return select(x.a < T(scalar_t<T>(0)), -x, x);
+  if constexpr (is_lanes_v<T>) {
+    const T sign = xsimd::bitofsign(x.a);
+    Dual<T, N> r(T(x.a ^ sign));
+    for (int i = 0; i < N; ++i) r.v[i] = x.v[i] ^ sign;
+    return r;
+  } else {
+    return select(x.a < T(scalar_t<T>(0)), -x, x);
+  }
 }
 template <class T, int N>
 Dual<T, N> sqrt(const Dual<T, N>& x) {
@@ -222,12 +282,12 @@ struct Special<Dual<T, N>> {
     const T e = fast_exp(T(T(-1) / square(s.a)));
     return chain(s, Special<T>::smith_lambda_core(s.a, e), T(T(0.5) / kSqrtPi<T> * e));
   }
-  /// d/d(s²) = exp(-1/s²)/(2s√π), nothing where s² → 0.
-  static Ratio<Dual<T, N>> smith_visible(const Dual<T, N>& s2) {
-    using std::sqrt;
-    const T held = larger_of(s2.a, T(1e-30)), inverse = T(1) / held;
-    const T slope = T(0.5) / kSqrtPi<T> * fast_exp(T(-inverse)) * sqrt(inverse);
-    return {chain(s2, Special<T>::smith_visible(s2.a).value(), slope), Dual<T, N>(T(1))};
+  /// d/d(s²) = exp(-1/s²)/(2s√π), as part of the numerator: no division but that of x = 1/s². Below the least s² of the
+  /// fraction it is 0, as there 1 + 2Λ is 1.
+  static Ratio<Dual<T, N>, T> smith_visible(const Dual<T, N>& s2) {
+    const SmithFraction<T> f = smith_fraction<scalar_t<T>>(s2.a);
+    const T slope = T(0.5) / kSqrtPi<T> * fast_exp(T(-f.x)) * f.s * f.x * f.value.under;
+    return {chain(s2, f.value.over, select(f.s2 > s2.a, T(0), slope)), f.value.under};
   }
 };
 

@@ -27,10 +27,10 @@ struct Special<ceres::Jet<double, N>> {
     const double e = std::exp(-1 / (s.a * s.a));
     return J(Special<double>::smith_lambda_core(s.a, e), 0.5 / kSqrtPi<double> * e * s.v);
   }
-  static Ratio<J> smith_visible(const J& s2) {
+  static Ratio<J, double> smith_visible(const J& s2) {
     const double inverse = 1 / std::max(s2.a, 1e-30),
                  slope = 0.5 / kSqrtPi<double> * std::exp(-inverse) * std::sqrt(inverse);
-    return {J(Special<double>::smith_visible(s2.a).value(), slope * s2.v), J(1.0)};
+    return {J(Special<double>::smith_visible(s2.a).value(), slope * s2.v), 1.0};
   }
 };
 

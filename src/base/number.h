@@ -67,6 +67,12 @@ T multiply_add(const T& a, const T& b, const T& c) {
   }
 }
 
+/// The same of mixed types (a number with derivatives, one without).
+template <class A, class B, class C>
+auto multiply_add(const A& a, const B& b, const C& c) {
+  return a * b + c;
+}
+
 template <class T>
 T smaller_of(const T& a, const T& b) {
   if constexpr (is_lanes_v<T>)

@@ -4,15 +4,22 @@
 namespace gonio {
 
 /// A fraction not yet divided: the factors of a lobe multiply as fractions, and one division ends them all.
-template <class T>
+/// Either part may be a number without derivatives where the other has some.
+template <class T, class U = T>
 struct Ratio {
-  T over, under;
-  T value() const { return over / under; }
+  T over;
+  U under;
+  auto value() const { return over / under; }
+  /// Divided by x as well.
+  template <class V>
+  Ratio divided_by(const V& x) const {
+    return {over, U(under * x)};
+  }
 };
 
-template <class T>
-Ratio<T> operator*(const Ratio<T>& a, const Ratio<T>& b) {
-  return {a.over * b.over, a.under * b.under};
+template <class A, class B, class C, class D>
+auto operator*(const Ratio<A, B>& a, const Ratio<C, D>& b) {
+  return Ratio<decltype(a.over * b.over), decltype(a.under * b.under)>{a.over * b.over, a.under * b.under};
 }
 
 template <class T>

@@ -75,45 +75,69 @@ T fast_exp(const T& x) {
   }
 }
 
+/// ln(whole + lost), whole a positive normal number, lost far below it.
+/// whole = 2ᵏ·m, m in [√½, √2), ln m = 2·atanh((m-1)/(m+1)); what was lost goes into m - 1.
+template <class T>
+T logarithm_in_lanes(const T& whole, const T& lost) {
+  using S = scalar_t<T>;
+  constexpr bool kDouble = sizeof(S) == 8;
+  using Bits = std::conditional_t<kDouble, std::int64_t, std::int32_t>;
+  using BitLanes = xsimd::batch<Bits, typename T::arch_type>;
+  constexpr int kMantissa = kDouble ? 52 : 23;
+  constexpr Bits kRootHalf = kDouble ? Bits(0x3fe6a09e667f3bcd) : Bits(0x3f3504f3);
+  const BitLanes bits = xsimd::bitwise_cast<BitLanes>(whole), above = bits - BitLanes(kRootHalf);
+  const BitLanes exponent = above >> kMantissa;
+  const T m = xsimd::bitwise_cast<T>(bits - (exponent << kMantissa));
+  const T k = xsimd::to_float(exponent), f = (m - T(S(1))) + lost, t = f / (T(S(2)) + f);
+  const T series = [&] {
+    if constexpr (kDouble)
+      return polynomial(T(t * t), kLogarithm);
+    else
+      return polynomial(T(t * t), kLogarithmFloat);
+  }();
+  return multiply_add(k, T(S(0.69314718055994530942)), T(t * series));
+}
+
 /// ln(1 + x), x >= 0 (lanes: up to the largest number; a few last places). Elsewhere the type's own.
-/// 1 + x = 2ᵏ·m, m in [√½, √2), ln m = 2·atanh((m-1)/(m+1)); what 1 + x lost of a small x goes into m - 1.
 template <class T>
 T fast_log1p(const T& x) {
   if constexpr (is_lanes_v<T>) {
-    using S = scalar_t<T>;
-    constexpr bool kDouble = sizeof(S) == 8;
-    using Bits = std::conditional_t<kDouble, std::int64_t, std::int32_t>;
-    using BitLanes = xsimd::batch<Bits, typename T::arch_type>;
-    constexpr int kMantissa = kDouble ? 52 : 23;
-    constexpr Bits kRootHalf = kDouble ? Bits(0x3fe6a09e667f3bcd) : Bits(0x3f3504f3);
-    const T whole = T(S(1)) + x, lost = select(x < T(S(1)), T(x - (whole - T(S(1)))), T(S(0)));
-    const BitLanes bits = xsimd::bitwise_cast<BitLanes>(whole), above = bits - BitLanes(kRootHalf);
-    const BitLanes exponent = above >> kMantissa;
-    const T m = xsimd::bitwise_cast<T>(bits - (exponent << kMantissa));
-    const T k = xsimd::to_float(exponent), f = (m - T(S(1))) + lost, t = f / (T(S(2)) + f);
-    const T series = [&] {
-      if constexpr (kDouble)
-        return polynomial(T(t * t), kLogarithm);
-      else
-        return polynomial(T(t * t), kLogarithmFloat);
-    }();
-    return multiply_add(k, T(S(0.69314718055994530942)), T(t * series));
+    const T one = T(scalar_t<T>(1)), whole = one + x;
+    return logarithm_in_lanes(whole, T(select(x < one, T(x - (whole - one)), T(scalar_t<T>(0)))));
   } else {
     using std::log1p;
     return log1p(x);
   }
 }
 
+/// ln x, x > 0 (lanes: of a normal number; about -88 or -709 at 0).
+template <class T>
+T fast_log(const T& x) {
+  if constexpr (is_lanes_v<T>) {
+    return logarithm_in_lanes(x, T(scalar_t<T>(0)));
+  } else {
+    using std::log;
+    return log(x);
+  }
+}
+
+/// 1 + 2Λ (below) and what its slope takes from it.
+template <class T>
+struct SmithFraction {
+  Ratio<T> value;
+  T s2, s, x;  ///< s² as held, its root, 1/s²
+};
+
 /// 1 + 2Λ (below) as s·E(x), E in powers of x = 1/s², with x held where E is √x to the last place that counts for S.
 template <class S, class T>
-Ratio<T> smith_fraction(const T& s2) {
+SmithFraction<T> smith_fraction(const T& s2) {
   using std::sqrt;
   constexpr bool kFloat = std::is_same_v<S, float>;
   const T held = larger_of(s2, T(S(kFloat ? kSmithLeastFloat : kSmithLeast))), s = sqrt(held), x = T(S(1)) / held;
   if constexpr (kFloat)
-    return {s * polynomial(x, kSmithOverFloat), polynomial(x, kSmithUnderFloat)};
+    return {{s * polynomial(x, kSmithOverFloat), polynomial(x, kSmithUnderFloat)}, held, s, x};
   else
-    return {s * polynomial(x, kSmithOver), polynomial(x, kSmithUnder)};
+    return {{s * polynomial(x, kSmithOver), polynomial(x, kSmithUnder)}, held, s, x};
 }
 
 /// The functions proper; numbers with derivatives (base/dual.h, base/jet.h) and 50 digits specialise it.
@@ -148,7 +172,7 @@ struct Special {
   static Ratio<T> smith_visible(const T& s2) {
     using std::sqrt;
     if constexpr (is_lanes_v<T>)
-      return smith_fraction<scalar_t<T>>(s2);
+      return smith_fraction<scalar_t<T>>(s2).value;
     else
       return whole(T(T(1) + T(2) * smith_lambda_core(T(sqrt(larger_of(s2, T(1e-30)))))));
   }
@@ -184,7 +208,7 @@ T smith_lambda_core(const T& s) {
 ///   1 + 2Λ = erf(a) + exp(-a²)/(a√π) = s·E(a²),  E even in a and free of cancellation,  d(1 + 2Λ)/ds = exp(-a²)/√π.
 /// Smith's height-correlated G is 2/((1 + 2Λ_i) + (1 + 2Λ_o)): sums of positive terms and no exponential.
 template <class T>
-Ratio<T> smith_visible(const T& s2) {
+auto smith_visible(const T& s2) {
   return Special<T>::smith_visible(s2);
 }
 

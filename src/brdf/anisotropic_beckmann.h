@@ -23,7 +23,7 @@ struct AnisotropicBeckmann {
   Ratio<T> shape_fraction(const Directions<G>& w) const {
     const T cos_i(w.cos_i), cos_o(w.cos_o), cos_sum = cos_i + cos_o;
     const T slopes = square(T(w.hx) / (alpha_x * cos_sum)) + square(T(w.hy) / (alpha_y * cos_sum));
-    const Ratio<T> d = gaussian_fraction(T(T(0.5) * slopes), T(T(1) + T(w.tan2_h)),
+    const Ratio<T> d = gaussian_fraction(T(T(0.5) * slopes), w.tan2_h,
                                          T(T(4) * kPi<T> * alpha_x * alpha_y * cos_i * cos_o));
     // Smith's functions take α²·tan² only: the stretched tangents stand in for a surface of alpha = 1.
     Directions<T> stretched{

@@ -38,10 +38,39 @@ GONIO_ONE_LOOP void evaluate_lanes(L lobe, const Lanes scale, const Lanes diffus
   }
 }
 
+/// Batches of a lobe that is a diffraction series, a block at a time: its sums in loops of their own.
+template <class Lanes, class L>
+GONIO_ONE_LOOP void evaluate_series(const L lobe, const Lanes scale, const Lanes diffuse, const Interface<Lanes> surface,
+                                    const Lanes wavelength_um, const DirectionPairs<scalar_t<Lanes>> pairs,
+                                    std::size_t count, scalar_t<Lanes>* f_per_sr) {
+  using S = scalar_t<Lanes>;
+  constexpr std::size_t kBlock = 16;
+  const Lanes half = Lanes(S(std::ldexp(1.0, -kSeriesPower / 2)));
+  std::array<Lanes, kBlock> g, b, factor, sum;
+  g.fill(Lanes(S(1))), b.fill(Lanes(S(0))), factor.fill(Lanes(S(0)));
+  for (std::size_t at = 0; at < count; at += kBlock * Lanes::size) {
+    const std::size_t batches = std::min(kBlock, (count - at) / Lanes::size);
+    for (std::size_t i = 0; i < batches; ++i) {
+      const auto load = [at, i](std::span<const S> component) {
+        return Lanes::load_unaligned(component.data() + at + i * Lanes::size);
+      };
+      const Directions<Lanes> w =
+          reduce<Lanes>(load(pairs.ix), load(pairs.iy), load(pairs.iz), load(pairs.ox), load(pairs.oy), load(pairs.oz));
+      const DiffractionSeries<Lanes> series = lobe.series(w, wavelength_um);
+      g[i] = series.g, b[i] = series.b, factor[i] = series.scale * half * facet_reflectance<Lanes>(lobe, w, surface);
+    }
+    poisson_lobe_sums(g, b, sum);
+    for (std::size_t i = 0; i < batches; ++i)
+      multiply_add(scale, Lanes(sum[i] * half * factor[i]), diffuse).store_unaligned(f_per_sr + at + i * Lanes::size);
+  }
+}
+
 /// The loop with the lobe's choices as constants, where it has any.
 template <class Lanes, class L, class... Rest>
 void evaluate_lobe_lanes(const L& lobe, bool retro, const Rest&... rest) {
   if (retro) return evaluate_lanes<kLobesOwn, false, true, Lanes>(lobe, rest...);
+  if constexpr (requires { lobe.is_series(); })
+    if (lobe.is_series()) return evaluate_series<Lanes>(lobe, rest...);
   constexpr bool kForms = std::is_same_v<L, TorranceSparrow<Lanes>>;
   const auto shadowed = [&]<Shadowing kShadowing>() {
     evaluate_lanes<static_cast<int>(kShadowing), kForms, false, Lanes>(lobe, rest...);

@@ -50,16 +50,25 @@ struct BeckmannKirchhoff {
 
   KirchhoffSampler<T> sampler(const T& wavelength_um) const { return {sigma_um, correlation_um, wavelength_um}; }
 
+  /// Whether shape() is the value of series().
+  bool is_series() const { return form == KirchhoffForm::series || form == KirchhoffForm::nieto_vesperinas_1982; }
   template <class G>
-  T shape(const Directions<G>& w, const T& wavelength_um) const {
+  DiffractionSeries<T> series(const Directions<G>& w, const T& wavelength_um) const {
     const T cos_sum = T(w.cos_i) + T(w.cos_o), tan2_h(w.tan2_h), cosines = T(w.cos_i) * T(w.cos_o);
-    if (form == KirchhoffForm::rough_limit)
-      return beckmann_d(tan2_h, T(T(2) * sigma_um / correlation_um), T(T(1) / (T(4) * cosines)));
     const T f_prime = T(0.5) * cos_sum * (T(1) + tan2_h);
     const T b = square(kPi<T> * correlation_um * cos_sum / wavelength_um) * tan2_h;  // v_xy²T²/4
-    const T g = phase_variance(w, wavelength_um);
     T scale = kPi<T> * square(correlation_um / wavelength_um) * square(f_prime) / cosines;
     if (form == KirchhoffForm::nieto_vesperinas_1982) scale = scale * square(T(T(w.cos_i) / T(w.cos_o)));
+    return {phase_variance(w, wavelength_um), b, scale};
+  }
+
+  template <class G>
+  T shape(const Directions<G>& w, const T& wavelength_um) const {
+    if (form == KirchhoffForm::rough_limit)
+      return beckmann_d(T(w.tan2_h), T(T(2) * sigma_um / correlation_um),
+                        T(T(1) / (T(4) * T(w.cos_i) * T(w.cos_o))));
+    const DiffractionSeries<T> whole = series(w, wavelength_um);
+    const auto& [g, b, scale] = whole;
     switch (form) {
       case KirchhoffForm::smooth_limit:
         return scaled_exp(T(scale * g), T(g + b));
@@ -72,7 +81,7 @@ struct BeckmannKirchhoff {
       case KirchhoffForm::gauss_12:
         return poisson_lobe_gauss<12>(g, b, scale);
       default:
-        return diffraction_series(g, b, scale);
+        return value_of_series(whole);
     }
   }
 

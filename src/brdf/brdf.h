@@ -107,7 +107,7 @@ T lobe_value(const L& lobe, const Directions<G>& w, const Interface<T>& surface,
   if constexpr (requires { lobe.shape_fraction(w); } && L::kFacets) {
     if constexpr (requires { lobe.schlick_fresnel; })
       if (lobe.schlick_fresnel) return (lobe.shape_fraction(w) * whole(facet_reflectance<T>(lobe, w, surface))).value();
-    return (lobe.shape_fraction(w) * surface.reflectance_of_cos2(T(w.cos2_d()))).value();
+    return (lobe.shape_fraction(w) * surface.reflectance_of_cos2(w.cos2_d())).value();
   } else {
     return facet_reflectance<T>(lobe, w, surface) * shape_of<T>(lobe, w, wavelength_um);
   }

@@ -22,6 +22,13 @@ UnitVector<T> mirrored(const UnitVector<T>& o, const UnitVector<T>& h) {
   return {twice * h.x - o.x, twice * h.y - o.y, twice * h.z - o.z};
 }
 
+/// A direction as drawn, its density not yet taken; `lit` where it counts if it lies above the horizon.
+template <class T, class Mask = decltype(T() < T())>
+struct DrawnDirection {
+  UnitVector<T> direction;
+  Mask lit;
+};
+
 /// The sample of a sampler whose density is its pdf(); empty unless `lit` and above the horizon.
 template <class T, class Sampler, class Mask>
 DirectionSample<T> with_density(const Sampler& sampler, const UnitVector<T>& i, const UnitVector<T>& o,
@@ -30,6 +37,10 @@ DirectionSample<T> with_density(const Sampler& sampler, const UnitVector<T>& i, 
   // A direction that is dropped is replaced by the eye's, so that its density has nothing to overflow with.
   const UnitVector<T> safe{select(valid, i.x, o.x), select(valid, i.y, o.y), select(valid, i.z, o.z)};
   return {i, select(valid, sampler.pdf(safe, o), T(0))};
+}
+template <class T, class Sampler>
+DirectionSample<T> with_density(const Sampler& sampler, const DrawnDirection<T>& drawn, const UnitVector<T>& o) {
+  return with_density(sampler, drawn.direction, o, drawn.lit);
 }
 
 }  // namespace gonio

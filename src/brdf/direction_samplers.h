@@ -10,7 +10,7 @@ template <class T>
 struct CosineSampler {
   DirectionSample<T> sample(const UnitVector<T>&, const T&, const T& u1, const T& u2) const {
     using std::sqrt;
-    const SineCosine<T> turn = sine_cosine(T(T(2) * kPi<T> * u2));
+    const SineCosine<T> turn = sine_cosine_of_turn(u2);
     const T r = sqrt(u1), z = sqrt(T(1) - u1);
     return {{r * turn.cosine, r * turn.sine, z}, z / kPi<T>};
   }
@@ -22,7 +22,7 @@ template <class T>
 struct HemisphereSampler {
   DirectionSample<T> sample(const UnitVector<T>&, const T&, const T& u1, const T& u2) const {
     using std::sqrt;
-    const SineCosine<T> turn = sine_cosine(T(T(2) * kPi<T> * u2));
+    const SineCosine<T> turn = sine_cosine_of_turn(u2);
     const T r = sqrt(T((T(1) - u1) * (T(1) + u1)));
     return {{r * turn.cosine, r * turn.sine, u1}, T(0.5) / kPi<T>};
   }
@@ -39,7 +39,7 @@ struct AxisSampler {
     using std::expm1, std::log, std::sqrt;
     const UnitVector<T> v = axis(o);
     const T fall = -expm1(T(log(u1) / (n + T(1)))), sine = sqrt(T(fall * (T(2) - fall)));  // 1 - cos s, sin s
-    const SineCosine<T> turn = sine_cosine(T(T(2) * kPi<T> * u2));
+    const SineCosine<T> turn = sine_cosine_of_turn(u2);
     // A frame about v, v.z >= 0 (Duff et al. 2017, JCGT 6(1)).
     const T over = T(-1) / (T(1) + v.z), xy = v.x * v.y * over, x = sine * turn.cosine, y = sine * turn.sine;
     const UnitVector<T> i{v.x + (x * (T(1) + square(v.x) * over) + y * xy - fall * v.x),
@@ -72,17 +72,19 @@ struct DiscSampler {
   DiscKind kind = DiscKind::abc;
 
   DirectionSample<T> sample(const UnitVector<T>& o, const T&, const T& u1, const T& u2) const {
-    using std::expm1, std::log, std::log1p, std::sqrt;
+    return with_density(*this, draw(o, u1, u2), o);
+  }
+  DrawnDirection<T> draw(const UnitVector<T>& o, const T& u1, const T& u2) const {
+    using std::expm1, std::log1p, std::sqrt;
     const T rho2 =
         kind == DiscKind::gaussian
-            ? T(-log(u1) / b)
+            ? T(-fast_log(u1) / b)
             : T(expm1(power_law_logarithm(T(T(1) - u1), T(T(1) - off_one(c)), T(log1p(T(b * farthest2(o)))))) / b);
     const T rho = sqrt(rho2);
-    const SineCosine<T> turn = sine_cosine(T(T(2) * kPi<T> * u2));
+    const SineCosine<T> turn = sine_cosine_of_turn(u2);
     // cos_i² = cos_o² + ρ·(2·o_xy·(cos, sin) - ρ): no difference of near equals where o grazes.
     const T z2 = square(o.z) + rho * (T(2) * (o.x * turn.cosine + o.y * turn.sine) - rho);
-    const UnitVector<T> i{rho * turn.cosine - o.x, rho * turn.sine - o.y, sqrt(larger_of(z2, T(0)))};
-    return with_density(*this, i, o, z2 > T(0));
+    return {{rho * turn.cosine - o.x, rho * turn.sine - o.y, sqrt(larger_of(z2, T(0)))}, z2 > T(0)};
   }
 
   T pdf(const UnitVector<T>& i, const UnitVector<T>& o) const {
@@ -156,13 +158,14 @@ struct KirchhoffSampler {
   DirectionSample<T> sample(const UnitVector<T>& o, const T& u0, const T& u1, const T& u2) const {
     const Shares shares = shares_at(o);
     const auto facet = u0 < shares.facets, rest = u0 >= T(1) - uniform_share();
-    const auto mirror = facets().sample(o, u0, u1, u2), wave = shares.waves.sample(o, u0, u1, u2);
+    const auto mirror = facets().draw(o, u1, u2), wave = shares.waves.draw(o, u1, u2);
     const auto uniform = HemisphereSampler<T>{}.sample(o, u0, u1, u2);
-    const auto pick = [&](auto of) { return T(select(facet, of(mirror), T(select(rest, of(uniform), of(wave))))); };
-    const UnitVector<T> i{pick([](const auto& s) { return s.direction.x; }),
-                          pick([](const auto& s) { return s.direction.y; }),
-                          pick([](const auto& s) { return s.direction.z; })};
-    return with_density(*this, i, o, pick([](const auto& s) { return s.pdf_per_sr; }) > T(0));
+    const auto pick = [&](T UnitVector<T>::*component) {
+      return T(select(facet, mirror.direction.*component,
+                      T(select(rest, uniform.direction.*component, wave.direction.*component))));
+    };
+    const UnitVector<T> i{pick(&UnitVector<T>::x), pick(&UnitVector<T>::y), pick(&UnitVector<T>::z)};
+    return with_density(*this, i, o, (facet && mirror.lit) || (!facet && (rest || wave.lit)));
   }
 
   T pdf(const UnitVector<T>& i, const UnitVector<T>& o) const {

@@ -21,8 +21,11 @@ struct FacetSampler {
   Visibility visibility = Visibility::v_cavity;
 
   DirectionSample<T> sample(const UnitVector<T>& o, const T&, const T& u1, const T& u2) const {
+    return with_density(*this, draw(o, u1, u2), o);
+  }
+  DrawnDirection<T> draw(const UnitVector<T>& o, const T& u1, const T& u2) const {
     const UnitVector<T> h = normal(o, u1, u2);
-    return with_density(*this, mirrored(o, h), o, dot(o, h) > T(0));
+    return {mirrored(o, h), dot(o, h) > T(0)};
   }
 
   T pdf(const UnitVector<T>& i, const UnitVector<T>& o) const {
@@ -71,7 +74,7 @@ struct FacetSampler {
   UnitVector<T> ggx_normal(const UnitVector<T>& o, const T& u1, const T& u2) const {
     using std::sqrt;
     const UnitVector<T> w = normalised(T(alpha_x * o.x), T(alpha_y * o.y), o.z);
-    const SineCosine<T> turn = sine_cosine(T(T(2) * kPi<T> * u1));
+    const SineCosine<T> turn = sine_cosine_of_turn(u1);
     const T z = (T(1) - u2) * (T(1) + w.z) - w.z, radius = sqrt(larger_of(T((T(1) - z) * (T(1) + z)), T(0)));
     return normalised(T(alpha_x * (radius * turn.cosine + w.x)), T(alpha_y * (radius * turn.sine + w.y)), T(z + w.z));
   }

@@ -42,11 +42,17 @@ struct HeTorrance {
 
   KirchhoffSampler<T> sampler(const T& wavelength_um) const { return {sigma0_um, correlation_um, wavelength_um}; }
 
+  bool is_series() const { return true; }
   template <class G>
-  T shape(const Directions<G>& w, const T& wavelength_um) const {
+  DiffractionSeries<T> series(const Directions<G>& w, const T& wavelength_um) const {
     const T tan2_i(w.tan2_i), tan2_o(w.tan2_o);
     const T sigma = reading == HeReading::sigma0_in_phase ? sigma0_um : effective_sigma(tan2_i, tan2_o);
-    return BeckmannKirchhoff<T>{sigma, correlation_um}.shape(w, wavelength_um) * shadowing(tan2_i) * shadowing(tan2_o);
+    const auto [g, b, scale] = BeckmannKirchhoff<T>{sigma, correlation_um}.series(w, wavelength_um);
+    return {g, b, scale * shadowing(tan2_i) * shadowing(tan2_o)};
+  }
+  template <class G>
+  T shape(const Directions<G>& w, const T& wavelength_um) const {
+    return value_of_series(series(w, wavelength_um));
   }
 
   template <class C>

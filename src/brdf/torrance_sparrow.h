@@ -33,8 +33,8 @@ struct TorranceSparrow {
   template <class G>
   Ratio<T> shape_fraction(const Directions<G>& w) const {
     const bool rational_d = form == FacetForm::schlick_d || form == FacetForm::schlick;
-    const Ratio<T> d = rational_d ? whole(schlick_d(T(w.tan2_h), alpha)) : beckmann_fraction(T(w.tan2_h), alpha);
-    return d * masking(w) * Ratio<T>{T(1), T(4) * T(w.cos_i) * T(w.cos_o)};
+    const Ratio<T> d = rational_d ? whole(schlick_d(T(w.tan2_h), alpha)) : beckmann_fraction(w.tan2_h, alpha);
+    return (d * masking(w)).divided_by(G(G(4) * w.cos_i * w.cos_o));
   }
   template <class G>
   T shape(const Directions<G>& w) const {

@@ -12,28 +12,29 @@ struct Polarised {
 
 /// What Fresnel's formulas take from the index N = n + ik and from the angle. With c = cos θ, w = a + ib = √(N² - sin²θ):
 ///   w² = t + 2ink,  t = (n-1)(n+1) - k² + c²,  q = |w²| = √(t² + 4n²k²) = a² + b²,
-/// the larger of a, b from its root u = (q + |t|)/2, the other from a·b = n·k.
+/// the larger of a, b from 2·max(a², b²) = q + |t|, the other from a·b = n·k.
 template <class T>
 struct FresnelTerms {
-  T q, t, u;       ///< u = max(a², b²)
+  T q, t, twice;   ///< twice max(a², b²)
   T two_a_c;       ///< 2·a·c
   T contrast2;     ///< |N² - 1|²
   T s_sum, p_sum;  ///< |c + w|² and q·c² + 2ac·s² + s⁴
   T p_even;        ///< q·c² + s⁴
 };
 
-template <class T>
-FresnelTerms<T> fresnel_terms(const T& cos2, const T& n, const T& k) {
+/// cos2 may be a number without derivatives where n and k have some.
+template <class C, class T>
+FresnelTerms<T> fresnel_terms(const C& cos2, const T& n, const T& k) {
   using std::abs, std::sqrt;
-  const T nk = n * k, four_n2k2 = T(4) * square(nk), contrast = (n - T(1)) * (n + T(1)) - square(k);
+  const T two_nk = T(2) * n * k, four_n2k2 = square(two_nk), contrast = (n - T(1)) * (n + T(1)) - square(k);
   FresnelTerms<T> f;
-  const T s2 = T(1) - cos2;
+  const C s2 = C(1) - cos2;
   f.contrast2 = square(contrast) + four_n2k2;
   f.t = contrast + cos2;
   f.q = sqrt(larger_of(multiply_add(f.t, f.t, four_n2k2), T(1e-36)));  // its root has no derivative at 0
-  f.u = T(0.5) * (f.q + abs(f.t));
-  f.two_a_c = T(2) * select(f.t >= T(0), f.u, nk) * sqrt(larger_of(T(cos2 / f.u), T(1e-36)));
-  f.p_even = multiply_add(f.q, cos2, square(s2));
+  f.twice = f.q + abs(f.t);
+  f.two_a_c = select(f.t >= T(0), f.twice, two_nk) * sqrt(larger_of(T((cos2 + cos2) / f.twice), T(1e-36)));
+  f.p_even = multiply_add(f.q, cos2, C(square(s2)));
   f.s_sum = f.q + f.two_a_c + cos2;
   f.p_sum = multiply_add(f.two_a_c, s2, f.p_even);
   return f;
@@ -45,8 +46,8 @@ FresnelTerms<T> fresnel_terms(const T& cos2, const T& n, const T& k) {
 /// sums of positive terms, also near index match, in total reflection and with weak absorption. Next to the critical angle R
 /// is ill-conditioned by nature.
 /// Domain: 0 <= cos²θ <= 1, n > 0, k >= 0. At grazing incidence R = 1; at normal incidence ((n-1)²+k²)/((n+1)²+k²).
-template <class T>
-Ratio<T> unpolarised_reflectance(const T& cos2, const T& n, const T& k) {
+template <class C, class T>
+Ratio<T> unpolarised_reflectance(const C& cos2, const T& n, const T& k) {
   const FresnelTerms<T> f = fresnel_terms(cos2, n, k);
   return {f.contrast2 * f.p_even, square(f.s_sum) * f.p_sum};
 }
@@ -59,7 +60,7 @@ Polarised<T> fresnel(const T& cos_theta, const T& n, const T& k) {
   const T& c = cos_theta;
   const T cos2 = square(c), s2 = (T(1) - c) * (T(1) + c);
   const FresnelTerms<T> f = fresnel_terms(cos2, n, k);
-  const T root = sqrt(f.u), other = n * k / root;
+  const T root = sqrt(T(T(0.5) * f.twice)), other = n * k / root;
   const T a = select(f.t >= T(0), root, other), b = select(f.t >= T(0), other, root);
   const T r_s = f.contrast2 / square(f.s_sum);
   return {r_s, r_s * (square(a * c - s2) + square(b * c)) / f.p_sum};

@@ -13,7 +13,8 @@ struct Interface {
   /// Unpolarised reflectance at the local angle of incidence (cos_d between a direction and the facet's normal).
   T reflectance(const T& cos_d) const { return reflectance_of_cos2(square(cos_d)).value(); }
   /// The same from cos²_d, as a fraction.
-  Ratio<T> reflectance_of_cos2(const T& cos2_d) const {
+  template <class C>
+  Ratio<T> reflectance_of_cos2(const C& cos2_d) const {
     return perfect ? whole(T(1)) : unpolarised_reflectance(cos2_d, n, k);
   }
   /// For light polarised in, or across, the plane of incidence of the facet.

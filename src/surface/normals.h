@@ -5,19 +5,19 @@
 
 namespace gonio {
 
-/// exp(-2x)·base²/norm, the exponential as the square of its scaled root: 1/(π α² 4 cos_i cos_o) reaches 1e18, and f keeps its digits
+/// exp(-2x)·(1 + tan²)²/norm, the exponential as the square of its scaled root: 1/(π α² 4 cos_i cos_o) reaches 1e18, and f keeps its digits
 /// long after exp(-tan²ζ/α²) has left the range of float.
-template <class T>
-Ratio<T> gaussian_fraction(const T& x, const T& base, const T& norm) {
-  const T scale(16777216.0);
-  return {square(T(exp_of_decay<0>(T(-x)) * (scale * base))), square(scale) * norm};
+template <class T, class C>
+Ratio<T> gaussian_fraction(const T& x, const C& tan2, const T& norm) {
+  const C scale(16777216.0);
+  return {square(T(exp_of_decay<0>(T(-x)) * multiply_add(scale, tan2, scale))), T(square(scale)) * norm};
 }
 
 /// Beckmann's density of normals, per steradian; ∫ D cos dω = 1.
 /// Beckmann & Spizzichino 1963 (their p(β) as a density over solid angle); D = exp(-tan²ζ/α²)/(π α² cos⁴ζ).
-template <class T>
-Ratio<T> beckmann_fraction(const T& tan2_h, const T& alpha) {
-  return gaussian_fraction(T(tan2_h * (T(0.5) / square(alpha))), T(T(1) + tan2_h), T(kPi<T> * square(alpha)));
+template <class T, class C>
+Ratio<T> beckmann_fraction(const C& tan2_h, const T& alpha) {
+  return gaussian_fraction(T(tan2_h * T(T(0.5) / square(alpha))), tan2_h, T(kPi<T> * square(alpha)));
 }
 template <class T>
 T beckmann_d(const T& tan2_h, const T& alpha) {

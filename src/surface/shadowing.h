@@ -70,12 +70,13 @@ Ratio<T> shadowing_masking(Shadowing shadowing, const Pair& w, const T& alpha) {
     case Shadowing::v_cavity:
       return v_cavity(T(w.cos_i), T(w.cos_o), T(w.cos2_d()));
     case Shadowing::smith_separable: {
-      const Ratio<T> i = smith_visible(T(alpha2 * T(w.tan2_i))), o = smith_visible(T(alpha2 * T(w.tan2_o)));
-      return {T(4) * i.under * o.under, (i.under + i.over) * (o.under + o.over)};
+      const auto i = smith_visible(T(alpha2 * w.tan2_i)), o = smith_visible(T(alpha2 * w.tan2_o));
+      const auto two = i.under + i.under;
+      return {T(two * (o.under + o.under)), (i.over + i.under) * (o.over + o.under)};
     }
     case Shadowing::smith_correlated: {
-      const Ratio<T> i = smith_visible(T(alpha2 * T(w.tan2_i))), o = smith_visible(T(alpha2 * T(w.tan2_o)));
-      return {T(2) * i.under * o.under, multiply_add(i.over, o.under, T(o.over * i.under))};
+      const auto i = smith_visible(T(alpha2 * w.tan2_i)), o = smith_visible(T(alpha2 * w.tan2_o));
+      return {T((i.under + i.under) * o.under), multiply_add(i.over, o.under, T(o.over * i.under))};
     }
     case Shadowing::smith_1967:
       return whole(T(smith_1967(T(w.tan2_i), alpha) * smith_1967(T(w.tan2_o), alpha)));

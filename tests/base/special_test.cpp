@@ -53,6 +53,10 @@ TEST_CASE("Lanes: erfcx, q, exp, log1p and 1 + 2 Lambda lose what they say", "[s
   CHECK(worst<FloatLanes>(-8, 1.9, decay, decay_truth) < 1.2e-7);
   CHECK(worst<DoubleLanes>(-12, 30, logarithm, log_truth) < 1e-15);
   CHECK(worst<FloatLanes>(-12, 30, logarithm, log_truth) < 3e-7);
+  const auto log_of = [](const auto& x) { return fast_log(x + std::remove_cvref_t<decltype(x)>(1.5F)); };
+  const auto log_of_truth = [](const Real& x) { return Real(log(Real(1.5 + x))); };
+  CHECK(worst<DoubleLanes>(-8, 30, log_of, log_of_truth) < 1e-15);
+  CHECK(worst<FloatLanes>(-8, 30, log_of, log_of_truth) < 4e-7);
   CHECK(worst<DoubleLanes>(-4, 7, smith, visible) < 2e-14);
   CHECK(worst<FloatLanes>(-4, 7, smith, visible) < 3e-7);
   // Scalars stay at the last place.

@@ -76,8 +76,8 @@ TEST_CASE("The series in lanes against the 50-digit sum, on both sides of its tu
     if (exact > 1e-290)
       worst_double =
           std::max(worst_double,
-                   std::abs(diffraction_series(DoubleLanes(g), DoubleLanes(b), DoubleLanes(1.0)).get(0) / exact - 1));
-    const double f = diffraction_series(FloatLanes(gf), FloatLanes(bf), FloatLanes(1.0F)).get(0),
+                   std::abs(value_of_series<DoubleLanes>({DoubleLanes(g), DoubleLanes(b), DoubleLanes(1.0)}).get(0) / exact - 1));
+    const double f = value_of_series<FloatLanes>({FloatLanes(gf), FloatLanes(bf), FloatLanes(1.0F)}).get(0),
                  error = std::abs(f / exact_f - 1);
     if (exact_f > 1e-6 * oracle::kirchhoff_sum(double(gf), 0).convert_to<double>())
       worst_float = std::max(worst_float, error);
@@ -90,14 +90,63 @@ TEST_CASE("The series in lanes against the 50-digit sum, on both sides of its tu
   CHECK(faint < 5e-5);
 }
 
-TEST_CASE("Below its turn the nodes of the series lose what the terms keep", "[brdf][batch]") {
+TEST_CASE("Below its least X the bell of the series loses what the terms keep", "[brdf][batch]") {
   const auto lost = [](double g) {
     const auto peak = series_peak(DoubleLanes(g), DoubleLanes(0.0));
-    const double nodes = sum_by_nodes(DoubleLanes(g), DoubleLanes(0.0), peak).get(0) * 0x1p-90;
-    return std::abs(nodes / oracle::kirchhoff_sum(g, 0).convert_to<double>() - 1);
+    const double bell = sum_by_bell(DoubleLanes(g), DoubleLanes(0.0), peak).get(0) * 0x1p-90;
+    return std::abs(bell / oracle::kirchhoff_sum(g, 0).convert_to<double>() - 1);
   };
-  CHECK(lost(LaneSeries<double>::turn) < 1e-10);
-  CHECK(lost(0.6 * LaneSeries<double>::turn) > 1e-8);
+  CHECK(lost(LaneSeries<double>::least) < 1e-10);
+  CHECK(lost(0.6 * LaneSeries<double>::least) > 1e-8);
+}
+
+TEST_CASE("Many sums at a time are those of one at a time, whichever way each lane takes", "[brdf][batch]") {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto check = [&]<class Lanes>(Lanes, double bound) {
+    using S = scalar_t<Lanes>;
+    std::array<Lanes, 7> g, b, sum;
+    int wrong = 0, terms = 0;
+    for (int round = 0; round < 60; ++round) {
+      const double least_log = round % 3 - 1, width = round % 4;
+      for (std::size_t i = 0; i < g.size(); ++i) {
+        alignas(64) std::array<S, Lanes::size> gs, bs;
+        for (std::size_t lane = 0; lane < Lanes::size; ++lane)
+          gs[lane] = S(std::pow(10, least_log + width * uniform(random))), bs[lane] = S(80 * uniform(random));
+        g[i] = Lanes::load_aligned(gs.data()), b[i] = Lanes::load_aligned(bs.data());
+      }
+      poisson_lobe_sums(g, b, sum);
+      for (std::size_t i = 0; i < g.size(); ++i)
+        for (std::size_t lane = 0; lane < Lanes::size; ++lane) {
+          const double one = poisson_lobe_sum_in_lanes(Lanes(g[i].get(lane)), Lanes(b[i].get(lane))).get(0);
+          terms += g[i].get(lane) < S(5);
+          wrong += !(std::abs(sum[i].get(lane) / one - 1) < bound);
+        }
+    }
+    CHECK(terms > 1000);  // lanes of both kinds were there
+    CHECK(wrong == 0);
+  };
+  check(DoubleLanes(), 1e-10);  // a lane may share more terms than it needs alone
+  check(FloatLanes(), 1e-5);
+}
+
+TEST_CASE("A product of factors with their own variables has the derivatives of the whole", "[brdf][batch]") {
+  using V = DoubleLanes;
+  using All = Dual<V, 3>;
+  for (const double theta : {1.0, 40.0, 85.0})
+    for (const double alpha : {0.02, 0.3, 2.0}) {
+      const Directions<V> w = spread<V>(directions_from_deg(theta, theta / 2, 150.0));
+      const All whole = lobe_value<All>(TorranceSparrow<All>{All(V(alpha), 0)}, w,
+                                        Interface<All>{All(V(0.21), 1), All(V(3.272), 2)}, All(0.55));
+      const TorranceSparrow<Dual<V, 1>> lobe{Dual<V, 1>(V(alpha), 0)};
+      const Interface<Dual<V, 2>> gold{Dual<V, 2>(V(0.21), 0), Dual<V, 2>(V(3.272), 1)};
+      const All product = joint_product(lobe.shape_fraction(w), gold.reflectance_of_cos2(w.cos2_d()));
+      INFO(theta << " " << alpha);
+      if (whole.a.get(0) < 1e-200) continue;
+      CHECK(product.a.get(0) == Approx(whole.a.get(0)).epsilon(1e-13));
+      for (std::size_t i = 0; i < 3; ++i)
+        CHECK(product.v[i].get(0) == Approx(whole.v[i].get(0)).epsilon(1e-11).margin(1e-14 * whole.a.get(0)));
+    }
 }
 
 TEST_CASE("Derivatives in lanes equal ceres::Jet's, the series included", "[brdf][batch]") {

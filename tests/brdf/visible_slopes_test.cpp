@@ -66,6 +66,20 @@ double worst_slope() {
 
 }  // namespace
 
+TEST_CASE("Sines and cosines of a turn in lanes: the numbers' last places, its ends included", "[brdf][sampling]") {
+  double worst = 0, worst_float = 0;
+  for (int i = 0; i <= 4096; ++i) {
+    const double u = i / 4096.0, sine = std::sin(2 * kPi<double> * u), cosine = std::cos(2 * kPi<double> * u);
+    const auto in_double = sine_cosine_of_turn(DoubleLanes(u));
+    const auto in_float = sine_cosine_of_turn(FloatLanes(float(u)));
+    worst = std::max({worst, std::abs(in_double.sine.get(0) - sine), std::abs(in_double.cosine.get(0) - cosine)});
+    worst_float =
+        std::max({worst_float, std::abs(in_float.sine.get(0) - sine), std::abs(in_float.cosine.get(0) - cosine)});
+  }
+  CHECK(worst < 5e-16);
+  CHECK(worst_float < 1.5e-7);
+}
+
 TEST_CASE("Azimuths of cavities and visible Gaussian slopes solve their equations", "[brdf][sampling]") {
   const double azimuth = worst_azimuth<double>(), slope = worst_slope<double>();
   const double float_azimuth = worst_azimuth<float>(), float_slope = worst_slope<float>();
