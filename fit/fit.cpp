@@ -18,18 +18,54 @@
 namespace gonio {
 namespace {
 
+/// Points of a scan that show a start its way, and points on which the starts are solved first where a scan has many more.
+constexpr std::size_t kFewPoints = 192, kSomePoints = 3000;
+constexpr double kWorthSolving =
+    3;  ///< costs of starts on some of the points, over the least, from which on they are dropped
+constexpr std::size_t kMostSolved = 3;  ///< different minima among them that are solved on all points
+
 /// Every start solved; starts share nothing, so that neither their number nor the threads change any of them.
-std::vector<Solution> solve_all(const FitProblem& problem, const FitRequest& request) {
+std::vector<Solution> solve_starts(const LaneFit& few, const LaneFit& points, const FitRequest& request) {
   std::vector<Solution> solutions(static_cast<std::size_t>(request.starts));
   std::mutex mutex;
   int done = 0;
   tbb::parallel_for(0, request.starts, [&](int start) {
-    solutions[static_cast<std::size_t>(start)] =
-        solve(problem, improve_start(problem, start_point(problem, start, request.seed)), kSearch);
+    const std::vector<double> x = improve_start(few, start_point(few.problem(), start, request.seed));
+    solutions[static_cast<std::size_t>(start)] = points.solve(x, kSearch);
     const std::lock_guard lock(mutex);
     ++done;
     if (request.progress) request.progress(done, request.starts);
   });
+  return solutions;
+}
+
+/// Solutions of all points: where there are many, some of them decide which starts are worth it.
+std::vector<Solution> solve_all(const LaneFit& all, const FitRequest& request) {
+  const FitProblem& problem = all.problem();
+  const LaneFit few(problem, thinned_points(problem, kFewPoints));
+  if (problem.points.size() <= 2 * kSomePoints) return solve_starts(few, all, request);
+  const LaneFit some(problem, thinned_points(problem, kSomePoints));
+  std::vector<Solution> solutions = solve_starts(few, some, request);
+  std::stable_sort(solutions.begin(), solutions.end(), [](auto& a, auto& b) { return a.cost < b.cost; });
+  std::vector<Solution> different;
+  for (Solution& s : solutions) {
+    const bool known = std::any_of(different.begin(), different.end(), [&](const Solution& d) {
+      return std::abs(s.cost - d.cost) <= 1e-6 * s.cost + 1e-18 * static_cast<double>(kSomePoints);
+    });
+    if (known || different.size() == kMostSolved || !(s.cost <= kWorthSolving * solutions[0].cost)) continue;
+    different.push_back(s);
+  }
+  for (Solution& d : different) d = all.solve(d.x, kSearch);
+  // A start that ended where another did shares its solution.
+  for (Solution& s : solutions) {
+    const auto same = std::min_element(different.begin(), different.end(), [&](auto& a, auto& b) {
+      return std::abs(a.cost - s.cost) < std::abs(b.cost - s.cost);
+    });
+    if (same != different.end() && s.converged) {
+      const int rejected = s.rejected;
+      s = *same, s.rejected += rejected;
+    }
+  }
   return solutions;
 }
 
@@ -41,8 +77,8 @@ const Solution& best_of(const std::vector<Solution>& solutions) {
   return *std::min_element(solutions.begin(), solutions.end(), better);
 }
 
-Solution polished(const FitProblem& problem, const Solution& found) {
-  Solution better = solve(problem, found.x, kPolish);
+Solution polished(const LaneFit& all, const Solution& found) {
+  Solution better = all.solve(found.x, kPolish);
   return better.converged && better.cost <= found.cost ? better : found;
 }
 
@@ -71,7 +107,8 @@ std::optional<std::size_t> try_zero(FitProblem& problem, Solution& solution) {
     std::vector<double> x = solution.x;
     x.erase(x.begin() + static_cast<std::ptrdiff_t>(i));
     Solution next = solve(without, std::move(x));
-    if (!next.converged || !(next.cost <= solution.cost)) continue;
+    const double rounding = 1e-12 * solution.cost + 1e-24 * static_cast<double>(problem.points.size());
+    if (!next.converged || !(next.cost <= solution.cost + rounding)) continue;
     const std::size_t place = problem.free[i].place;
     problem = std::move(without);
     solution = std::move(next);
@@ -167,8 +204,9 @@ FitResult fit(const Measurement& measurement, const FitRequest& request) {
   if (request.starts < 1) throw input_error("starts {}: too few; expected 1 or more", request.starts);
   FitResult result;
   Prepared ready = prepare(measurement, request, result);
-  const std::vector<Solution> solutions = solve_all(ready.problem, request);
-  Solution best = polished(ready.problem, best_of(solutions));
+  const LaneFit all(ready.problem, every_point(ready.problem));
+  const std::vector<Solution> solutions = solve_all(all, request);
+  Solution best = polished(all, best_of(solutions));
   result.starts = request.starts;
   result.starts_converged =
       static_cast<int>(std::count_if(solutions.begin(), solutions.end(), [](auto& s) { return s.converged; }));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "materials/database.h"
 
 namespace gonio {
@@ -69,17 +70,26 @@ void say_what_is_assumed(const Measurement& scan, const FitRequest& request, Fit
 std::vector<FitPoint> all_points(const Measurement& scan, const FitResult& result) {
   const SurfaceMaterial material =
       needs_surface(result) ? SurfaceMaterial(*result.material) : SurfaceMaterial::perfect();
-  std::vector<FitPoint> points;
-  for (const ScanPoint& row : scan.points) {
-    FitPoint point;
+  const auto nm_of = [&](const ScanPoint& row) {
+    return row.has_wavelength() ? row.wavelength_nm : result.assumed_wavelength_nm.value_or(1000);
+  };
+  std::map<double, Interface<double>> surfaces;
+  for (const ScanPoint& row : scan.points)
+    if (const double nm = nm_of(row); !surfaces.contains(nm)) surfaces.emplace(nm, material.at(nm));
+  std::vector<FitPoint> points(scan.points.size());
+  for_each_index(points.size(), [&](std::size_t i) {
+    const ScanPoint& row = scan.points[i];
+    FitPoint& point = points[i];
     point.directions = directions_from_deg(row.theta_i_deg, row.theta_o_deg, row.phi_deg(), row.phi_i_deg);
-    const double nm = row.has_wavelength() ? row.wavelength_nm : result.assumed_wavelength_nm.value_or(1000);
+    const double nm = nm_of(row);
     point.wavelength_um = nm * 1e-3;
-    point.surface = material.at(nm);
+    point.surface = surfaces.at(nm);
     point.f_per_sr = row.f_per_sr;
     point.weight = result.weighting == Weighting::cosine ? point.directions.cos_o : 1;
-    points.push_back(point);
-  }
+    const auto& all = result.wavelength_nm;
+    const auto at = std::lower_bound(all.begin(), all.end(), nm);
+    point.group = at != all.end() && *at == nm ? static_cast<std::size_t>(at - all.begin()) : 0;
+  });
   return points;
 }
 

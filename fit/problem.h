@@ -18,6 +18,11 @@ enum class Metric { log, linear, cuberoot };
 /// `cosine` compares f·cos θ_o (what a detector of fixed aperture sees) instead of f; under `log` it would cancel.
 enum class Weighting { none, cosine };
 
+/// What becomes of large residuals: nothing, or a loss that grows more slowly beyond a width (Huber 1964; Cauchy's).
+enum class Loss { none, huber, cauchy };
+
+std::string_view name_of(Loss loss);
+Loss loss_from(std::string_view name);  ///< InputError for an unknown name
 std::string_view name_of(Metric metric);
 std::string_view name_of(Weighting weighting);
 Metric metric_from(std::string_view name);        ///< InputError for an unknown name
@@ -29,7 +34,9 @@ struct FitPoint {
   Interface<double> surface;
   double wavelength_um = 1;  ///< 1 where no wavelength is needed
   double f_per_sr = 0;
-  double weight = 1;  ///< cos θ_o or 1
+  double weight = 1;      ///< cos θ_o or 1
+  double confidence = 1;  ///< what the residual is multiplied by: 1, or one over its standard deviation
+  std::size_t group = 0;  ///< which wavelength
 };
 
 /// A parameter that the fit varies, on a logarithmic scale inside its box.
@@ -38,16 +45,21 @@ struct FreeParameter {
   std::size_t place = 0;                                               ///< in the model's parameters, or kIndex
   std::string name, unit;
   double lo = 0, hi = 0;
-  bool linear = false;  ///< kd or ks
+  bool linear = false;          ///< kd or ks
+  std::size_t group = kShared;  ///< the wavelength (FitPoint::group) whose kd or ks it is
+
+  static constexpr std::size_t kShared = static_cast<std::size_t>(-1);
 };
 
-/// A least-squares problem: points, model, metric, which parameters vary. x holds the logarithms of the free
-/// parameters. Values and derivatives both come from the model's own code (brdf/), evaluated with double or ceres::Jet.
+/// A least-squares problem: points, model, metric, which parameters vary. x holds the logarithms of the free parameters; kd or ks of 0
+/// stands at the logarithm of its box's lower end.
 class FitProblem {
  public:
   ModelSpec model;
   Metric metric = Metric::log;
   double floor_per_sr = 0;  ///< f0
+  Loss loss = Loss::none;
+  double loss_width = 1;  ///< in the residuals' unit
   std::vector<FitPoint> points;
   std::vector<FreeParameter> free;
   std::vector<double> values;  ///< of all the model's parameters; the free ones are replaced
@@ -56,19 +68,13 @@ class FitProblem {
   std::vector<double> predict(std::span<const double> x) const { return predict(x, points); }
   std::vector<double> predict(std::span<const double> x, std::span<const FitPoint> at) const;
 
-  /// Residuals and, unless null, their derivatives (row-major, points × free). false when any number is not finite.
-  bool residuals(std::span<const double> x, double* residual, double* jacobian) const;
-
   /// ψ of the metric: what is compared. The cosine is part of it, the floor too.
   double compared(double f_per_sr, const FitPoint& point) const;
   /// dψ/df.
   double compared_slope(double f_per_sr, const FitPoint& point) const;
 
-  /// f_r of each point with other kd and ks than those of x: (1, 0) gives the diffuse part, (0, 1) the lobe. Several
-  /// points side by side in SIMD lanes: the search for a start evaluates it hundreds of times.
-  std::vector<double> part(std::span<const double> x, double kd, double ks) const;
-
-  std::vector<double> values_at(std::span<const double> x) const;   ///< all the model's parameters
+  /// All the model's parameters, of one wavelength.
+  std::vector<double> values_at(std::span<const double> x, std::size_t group = 0) const;
   std::optional<double> index_at(std::span<const double> x) const;  ///< n, where it is free
 };
 

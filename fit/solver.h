@@ -1,7 +1,10 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
+#include <span>
 #include <vector>
 
+#include "fit/lobe_lanes.h"
 #include "fit/problem.h"
 
 namespace gonio {
@@ -9,7 +12,7 @@ namespace gonio {
 /// Where one start ended.
 struct Solution {
   std::vector<double> x;
-  double cost = 0;  ///< ½ Σ residual²
+  double cost = 0;  ///< ½ Σ residual², or the sum of the robust losses
   bool converged = false;
   int iterations = 0;
   int rejected = 0;  ///< evaluations that were not finite and therefore refused
@@ -19,15 +22,50 @@ struct Solution {
 /// last digit with either; data it does not fit converge linearly, and only the best start is worth kPolish.
 inline constexpr double kSearch = 1e-10, kPolish = 1e-15;
 
-/// Levenberg-Marquardt (Ceres, dense QR, bounds) from x.
-Solution solve(const FitProblem& problem, std::vector<double> x, double tolerance = kPolish);
-
-/// Residuals and Jacobian at x.
+/// Residuals and Jacobian at x, in the problem's order.
 struct Linearised {
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;
   bool finite = false;
 };
+
+/// A problem (which it refers to) made ready: its points, or some of them, in lanes.
+///
+/// Least squares by Levenberg and Marquardt on the normal equations of [roughness …, kd, ks | residual], whose sums are all that a step
+/// needs of the points. kd and ks, of all wavelengths or of each, are eliminated from every step (Golub & Pereyra's variable
+/// projection, here as the Schur complement of their blocks: the same Gauss-Newton step, and good for metrics in which they are
+/// not linear); they stay >= 0 by an active set. The other parameters move in their logarithms, inside their boxes.
+/// Sums are taken in blocks of fixed length, added in order: the same bits for any number of threads.
+class LaneFit {
+ public:
+  LaneFit(const FitProblem& problem, std::span<const std::size_t> points);
+
+  Solution solve(std::vector<double> x, double tolerance = kPolish) const;
+  /// The kd, ks that fit best at the roughness of x; returns the cost.
+  double eliminate(std::vector<double>& x) const;
+  Linearised linearise(const std::vector<double>& x) const;
+
+  const FitProblem& problem() const { return problem_; }
+  std::size_t points() const { return points_.count; }
+
+ private:
+  friend class NormalEquations;
+
+  const FitProblem& problem_;
+  LanePoints points_;
+  std::vector<DoubleLanes> reflectance_;
+  std::vector<std::size_t> roughness_;              ///< places in x of what is not linear, n last
+  std::vector<std::size_t> varied_;                 ///< the same in the model's parameters, without n
+  std::vector<std::array<std::size_t, 2>> linear_;  ///< places in x of kd and ks of each block; kHeld where not free
+  std::array<double, 2> held_{0, 1};                ///< kd and ks where they are not free
+  std::vector<double> diffuse_;                     ///< f per kd of each of points_.groups
+  static constexpr std::size_t kHeld = static_cast<std::size_t>(-1);
+
+  std::size_t block_of(const LaneGroup& group) const { return linear_.size() == 1 ? 0 : group.group; }
+};
+
+/// From x, with all points.
+Solution solve(const FitProblem& problem, std::vector<double> x, double tolerance = kPolish);
 Linearised linearise(const FitProblem& problem, const std::vector<double>& x);
 
 }  // namespace gonio

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "fit/problem.h"
+#include "fit/solver.h"
 
 namespace gonio {
 
@@ -10,12 +10,9 @@ namespace gonio {
 std::vector<double> start_point(const FitProblem& problem, int index, std::uint64_t seed);
 
 /// Brings a start near a minimum before the derivatives take over. kd and ks are eliminated: for given roughness they
-/// solve a two-parameter fit under the same metric (begun from a non-negative linear least-squares solution). What is
+/// solve a two-parameter fit under the same metric (LaneFit::eliminate). What is
 /// left is searched on a grid along one coordinate after the other, and along the direction in which all of them grow
 /// together (sigma/T constant), until no grid point is better.
-std::vector<double> improve_start(const FitProblem& problem, std::vector<double> x);
-
-/// The kd, ks that fit best at the roughness of x; returns ½·Σ residual². Public for its test.
-double eliminate_linear(const FitProblem& problem, std::vector<double>& x);
+std::vector<double> improve_start(const LaneFit& fit, std::vector<double> x);
 
 }  // namespace gonio

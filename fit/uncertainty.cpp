@@ -1,5 +1,6 @@
 #include "fit/uncertainty.h"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -71,6 +72,22 @@ void refuse(const FitProblem& problem, const Solution& solution, const Eigen::Ve
   result.warnings.push_back(describe(moving, why));
 }
 
+/// The triangle of a tall matrix's QR factors, which has its singular values and directions: block by block, each under the triangle of
+/// those before it.
+Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& tall) {
+  constexpr Eigen::Index kRows = 512;
+  const Eigen::Index columns = tall.cols();
+  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(columns, columns), stacked;
+  for (Eigen::Index from = 0; from < tall.rows(); from += kRows) {
+    const Eigen::Index rows = std::min(kRows, tall.rows() - from);
+    stacked.resize(columns + rows, columns);
+    stacked << triangle, tall.middleRows(from, rows);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
+    triangle = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+  }
+  return triangle;
+}
+
 /// Singular directions of the Jacobian's columns (all, or those of the parameters not at a bound), scaled to length 1.
 struct Spectrum {
   std::vector<Eigen::Index> places;
@@ -90,6 +107,7 @@ struct Spectrum {
       if (scale[j] > 0) scaled.col(j) /= scale[j];
     }
     if (count == 0) return;
+    scaled = triangle_of(scaled);
     const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
     singular = svd.singularValues();
     v = svd.matrixV();

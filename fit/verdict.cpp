@@ -54,14 +54,15 @@ void tally_all(const Prepared& prepared, FitResult& result) {
 
 /// Correlation of residuals that lie next to each other: same incidence, side by side in azimuth, then in zenith angle.
 double neighbour_correlation(const Prepared& prepared, const FitResult& result) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < result.points.size(); ++i)
-    if (result.points[i].used) order.push_back(i);
-  const auto key = [&](std::size_t i) {
+  std::vector<std::tuple<std::size_t, double, double, std::size_t>> keys;
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
     const FittedPoint& p = result.points[i];
-    return std::tuple(p.incidence, std::round(10 * (p.phi_deg - 360 * std::floor(p.phi_deg / 360))), p.theta_o_deg, i);
-  };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    if (!p.used) continue;
+    keys.emplace_back(p.incidence, std::round(10 * (p.phi_deg - 360 * std::floor(p.phi_deg / 360))), p.theta_o_deg, i);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::size_t> order;
+  for (const auto& key : keys) order.push_back(std::get<3>(key));
   double products = 0, squares = 0, last = 0;
   for (std::size_t at = 0; at < order.size(); ++at) {
     const FitPoint& point = prepared.points[order[at]];

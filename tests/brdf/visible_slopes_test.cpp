@@ -69,7 +69,9 @@ double worst_slope() {
 TEST_CASE("Sines and cosines of a turn in lanes: the numbers' last places, its ends included", "[brdf][sampling]") {
   double worst = 0, worst_float = 0;
   for (int i = 0; i <= 4096; ++i) {
-    const double u = i / 4096.0, sine = std::sin(2 * kPi<double> * u), cosine = std::cos(2 * kPi<double> * u);
+    const double u = i / 4096.0;
+    const auto angle = 2 * 3.141592653589793238462643383279502884L * static_cast<long double>(u);
+    const auto sine = double(std::sin(angle)), cosine = double(std::cos(angle));
     const auto in_double = sine_cosine_of_turn(DoubleLanes(u));
     const auto in_float = sine_cosine_of_turn(FloatLanes(float(u)));
     worst = std::max({worst, std::abs(in_double.sine.get(0) - sine), std::abs(in_double.cosine.get(0) - cosine)});

@@ -57,9 +57,9 @@ Recovery recover(const ModelSpec& spec, Metric metric, int truths, int starts, c
     for (const double value : truth) x.push_back(std::log(value));
     if (!identifiable(ready.problem, x)) continue;
     std::atomic<int> recovered = 0;
+    const LaneFit all(ready.problem, every_point(ready.problem));
     tbb::parallel_for(0, starts, [&](int start) {
-      const Solution found =
-          solve(ready.problem, improve_start(ready.problem, start_point(ready.problem, start, 1)), kSearch);
+      const Solution found = all.solve(improve_start(all, start_point(ready.problem, start, 1)), kSearch);
       if (worst_error(ready.problem.values_at(found.x), truth) < 1e-6) ++recovered;
     });
     count.starts += starts, count.recovered += recovered;
