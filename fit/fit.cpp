@@ -24,17 +24,30 @@ constexpr double kWorthSolving =
     3;  ///< costs of starts on some of the points, over the least, from which on they are dropped
 constexpr std::size_t kMostSolved = 3;  ///< different minima among them that are solved on all points
 
+/// The logarithms of given values, inside their boxes (n, which is none of the model's, in the middle of its own).
+std::vector<double> given_start(const FitProblem& problem, const std::vector<double>& values) {
+  std::vector<double> x;
+  for (const FreeParameter& p : problem.free) {
+    const double value = p.place < values.size() ? values[p.place] : std::sqrt(p.lo * p.hi);
+    x.push_back(std::log(std::clamp(value, p.lo, p.hi)));
+  }
+  return x;
+}
+
 /// Every start solved; starts share nothing, so that neither their number nor the threads change any of them.
 std::vector<Solution> solve_starts(const LaneFit& few, const LaneFit& points, const FitRequest& request) {
-  std::vector<Solution> solutions(static_cast<std::size_t>(request.starts));
+  const int count = request.starts + (request.begin.empty() ? 0 : 1);
+  std::vector<Solution> solutions(static_cast<std::size_t>(count));
   std::mutex mutex;
   int done = 0;
-  tbb::parallel_for(0, request.starts, [&](int start) {
-    const std::vector<double> x = improve_start(few, start_point(few.problem(), start, request.seed));
+  tbb::parallel_for(0, count, [&](int start) {
+    const std::vector<double> x = start < request.starts
+                                      ? improve_start(few, start_point(few.problem(), start, request.seed))
+                                      : given_start(few.problem(), request.begin);
     solutions[static_cast<std::size_t>(start)] = points.solve(x, kSearch);
     const std::lock_guard lock(mutex);
     ++done;
-    if (request.progress) request.progress(done, request.starts);
+    if (request.progress) request.progress(done, count);
   });
   return solutions;
 }
@@ -115,6 +128,31 @@ std::optional<std::size_t> try_zero(FitProblem& problem, Solution& solution) {
     return place;
   }
   return std::nullopt;
+}
+
+/// Widths at which the losses lose 5 % of the efficiency of least squares where errors are normal.
+constexpr double kHuber = 1.345, kCauchy = 2.385;
+
+/// The loss and its width: as asked for, or from the residuals' spread (1.4826 times their median size) in a fit of Huber's kind that
+/// begins with the spread of a plain one.
+void set_loss(FitProblem& problem, const FitRequest& request, FitResult& result) {
+  const double wide = request.loss == Loss::huber ? kHuber : kCauchy;
+  double width = request.loss_width;
+  if (!(width > 0)) {
+    FitRequest plain = request;
+    plain.starts = std::min(request.starts, 4), plain.progress = {};
+    for (int round = 0; round < 3; ++round) {
+      const LaneFit all(problem, every_point(problem));
+      const Solution best = best_of(solve_all(all, plain));
+      Eigen::VectorXd size = all.linearise(best.x).residual.cwiseAbs();
+      std::nth_element(size.begin(), size.begin() + size.size() / 2, size.end());
+      problem.loss = request.loss;
+      problem.loss_width = std::max(wide * 1.4826 * size[size.size() / 2], 1e-12);
+    }
+    width = problem.loss_width;
+  }
+  problem.loss = result.loss = request.loss;
+  problem.loss_width = result.loss_width = width;
 }
 
 FittedParameter from_box(const ParameterInfo& info, double value) {
@@ -201,13 +239,15 @@ std::optional<double> FitResult::index() const {
 }
 
 FitResult fit(const Measurement& measurement, const FitRequest& request) {
-  if (request.starts < 1) throw input_error("starts {}: too few; expected 1 or more", request.starts);
+  if (request.starts < (request.begin.empty() ? 1 : 0))
+    throw input_error("starts {}: too few; expected 1 or more", request.starts);
   FitResult result;
   Prepared ready = prepare(measurement, request, result);
+  if (request.loss != Loss::none) set_loss(ready.problem, request, result);
   const LaneFit all(ready.problem, every_point(ready.problem));
   const std::vector<Solution> solutions = solve_all(all, request);
   Solution best = polished(all, best_of(solutions));
-  result.starts = request.starts;
+  result.starts = static_cast<int>(solutions.size());
   result.starts_converged =
       static_cast<int>(std::count_if(solutions.begin(), solutions.end(), [](auto& s) { return s.converged; }));
   result.distinct_minima = count_minima(solutions, ready.problem.points.size());

@@ -28,6 +28,9 @@ struct FitRequest {
   std::optional<std::string> material;           ///< instead of the measurement's; `perfect` reflects 1
   bool free_n = false;                           ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
   std::map<std::string, double> held;            ///< parameters held at a value
+  std::vector<double> begin;                     ///< values of the model's parameters where one more start begins
+  Loss loss = Loss::none;                        ///< what becomes of large residuals
+  double loss_width = 0;  ///< in the residuals' unit; 0: Huber's 1.345 or Cauchy's 2.385 times their spread in a first fit
   std::function<void(int done, int count)> progress;  ///< called from any thread, one call at a time
 };
 
@@ -62,6 +65,8 @@ struct FitResult {
   ModelSpec model;
   Metric metric = Metric::log;
   Weighting weighting = Weighting::none;
+  Loss loss = Loss::none;
+  double loss_width = 0;
   double floor_per_sr = 0;
 
   std::optional<std::string> material;  ///< full database id

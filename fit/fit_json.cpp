@@ -50,6 +50,7 @@ Json to_json(const FitResult& result) {
   Json json{{"gonio_fit", 1}, {"model", result.model.info().name}, {"variant", result.model.variant()}};
   json["options"] = Json::object();
   if (!result.model.info().shadowings.empty()) json["options"]["shadowing"] = name_of(result.model.shadowing);
+  if (result.model.retro) json["options"]["retro"] = "yes";
   json["material"] = or_null(result.material);
   json["wavelength_nm"] = result.wavelength_nm;
   json["assumed_wavelength_nm"] = or_null(result.assumed_wavelength_nm);
@@ -57,6 +58,7 @@ Json to_json(const FitResult& result) {
   for (const FittedParameter& p : result.parameters) json["parameters"][p.name] = parameter(p);
   json["metric"] = name_of(result.metric);
   json["weighting"] = name_of(result.weighting);
+  if (result.loss != Loss::none) json["loss"] = {{"name", name_of(result.loss)}, {"width", result.loss_width}};
   json["floor_per_sr"] = result.floor_per_sr;
   json["residuals"] = residuals(result);
   json["correlation"] = {

@@ -38,6 +38,7 @@ struct FitReader {
     const json& options = root.at("options");
     if (!options.is_object()) throw input_error("{}: options is no list of names; expected {{\"shadowing\": …}}", file);
     if (options.contains("shadowing")) set_shadowing(material.model, text(options, "shadowing"));
+    if (options.contains("retro")) set_retro(material.model, text(options, "retro"));
   }
   void parameters(const json& root, FittedMaterial& material) const {
     const json& given = at(root, "parameters", "the fitted values");

@@ -136,8 +136,8 @@ std::vector<FreeParameter> free_parameters(const Measurement& scan, const FitReq
     const ParameterInfo& p = info.parameters[i];
     if (request.held.contains(std::string(p.name))) continue;
     const double scale = p.linear ? unit : 1, wider = p.linear && unit != 1 ? kRelativeDecades : 1;
-    free.push_back(
-        {i, std::string(p.name), std::string(p.unit), p.fit_lo * scale / wider, p.fit_hi * scale * wider, p.linear});
+    free.push_back({i, std::string(p.name), std::string(p.unit), p.fit_lo * scale / wider, p.fit_hi * scale * wider,
+                    p.name == "kd" || p.name == "ks"});
   }
   if (request.free_n) {
     if (info.id == ModelId::lambert)

@@ -196,4 +196,11 @@ Measurement read_measurement(const fs::path& path) {
   return scan;
 }
 
+Measurement at_wavelength(const Measurement& measurement, double wavelength_nm) {
+  Measurement one = measurement;
+  std::erase_if(one.points, [&](const ScanPoint& p) { return p.wavelength_nm != wavelength_nm; });
+  one.wavelength_nm = wavelength_nm;
+  return one;
+}
+
 }  // namespace gonio

@@ -50,6 +50,9 @@ struct Measurement {
   std::vector<double> wavelengths() const;
 };
 
+/// The rows of one wavelength alone.
+Measurement at_wavelength(const Measurement& measurement, double wavelength_nm);
+
 /// Reads a folder (scan.csv + measurement.yaml) or a bare CSV. InputError `file:line: …` for anything that is not a
 /// scan.
 Measurement read_measurement(const std::filesystem::path& path);

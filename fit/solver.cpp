@@ -191,10 +191,16 @@ Solution LaneFit::solve(std::vector<double> x, double tolerance) const {
                            std::abs(there.linear[b][j] - here.linear[b][j]) / std::max(here.linear[b][j], free[i].lo));
         }
     const bool still = longest <= kSettledStep && share <= kSettledStep;
-    // Nothing left to win by the linear model, or a step below rounding: an end.
-    if (still || !(step.predicted > 0) || step.predicted < 1e-16 * here.cost) {
+    // Nothing left to win by the linear model, or a step below rounding: an end. A step that promises no gain comes from columns that
+    // cannot be told apart, and is damped.
+    if (still || (step.predicted >= 0 && step.predicted < 1e-16 * here.cost)) {
       solution.converged = true;
       break;
+    }
+    if (!(step.predicted > 0)) {
+      damping *= growth, growth *= 2;
+      if (damping > 1e20) break;
+      continue;
     }
     const bool finite = there.evaluate(true);
     solution.rejected += !finite;
@@ -208,7 +214,7 @@ Solution LaneFit::solve(std::vector<double> x, double tolerance) const {
       continue;
     }
     const double won = here.cost - there.cost, ratio = won / (step.predicted * shrink * (2 - shrink));
-    damping = std::max(damping * std::max(1.0 / 9, 1 - std::pow(2 * std::min(ratio, 1.0) - 1, 3)), 1e-15);
+    damping = std::max(damping * std::max(1.0 / 9, 1 - std::pow(2 * std::min(ratio, 1.0) - 1, 3)), 1e-12);
     growth = 2;
     std::swap(here, there);
     // Far from rounding a small gain must repeat, so that a short step of a damped solver is not taken for the end.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include "base/files.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "fit/choose.h"
 #include "fit/fit_json.h"
 #include "fit/plots.h"
 
@@ -21,9 +23,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct FitArguments {
-  std::string measurement, metric = "log", weighting, variant, hold_out = "middle", material, floor, out;
+  std::string measurement, metric = "log", loss = "none", weighting, variant, hold_out = "middle", material, floor, out;
   std::vector<std::string> models, settings, free;
   int starts = 16;
+  bool by_wavelength = false;
 };
 
 /// Progress on stderr: a line rewritten on a terminal, else one line every few seconds; nothing below a second.
@@ -33,13 +36,14 @@ class Progress {
   ~Progress() {
     if (shown_ && terminal_) std::cerr << "\r\033[K";
   }
-  void operator()(int done, int count) {
+  void operator()(int done, int count) { operator()("", done, count, "starts"); }
+  void operator()(const std::string& part, int done, int count, const char* of = "models") {
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < (terminal_ ? std::chrono::seconds(1) : std::chrono::seconds(5)) && !(shown_ && terminal_)) return;
     shown_ = true;
     last_ = now;
-    std::cerr << fmt::format("{}{}: {} of {} starts{}", terminal_ ? "\r" : "", what_, done, count,
-                             terminal_ ? "" : "\n")
+    std::cerr << fmt::format("{}{}{}{}: {} of {} {}{}", terminal_ ? "\r\033[K" : "", what_, part.empty() ? "" : ", ",
+                             part, done, count, of, terminal_ ? "" : "\n")
               << std::flush;
   }
 
@@ -56,6 +60,7 @@ void apply_setting(const std::string& setting, FitRequest& request) {
   const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
   if (name == "shadowing") return set_shadowing(request.model, value);
   if (name == "variant") return set_variant(request.model, value);
+  if (name == "retro") return set_retro(request.model, value);
   const double number = number_in(value, name);
   const auto& parameters = request.model.info().parameters;
   const bool has_m = std::any_of(parameters.begin(), parameters.end(), [](auto& p) { return p.name == "m"; });
@@ -79,6 +84,12 @@ FitRequest request_for(const FitArguments& arguments, const std::string& name, c
   FitRequest request;
   request.model.id = model(name).id;
   request.metric = metric_from(arguments.metric);
+  const std::size_t equals = arguments.loss.find('=');
+  request.loss = loss_from(arguments.loss.substr(0, equals));
+  if (equals != std::string::npos) {
+    request.loss_width = number_in(arguments.loss.substr(equals + 1), "--loss");
+    if (!(request.loss_width > 0)) throw input_error("--loss {}: no width; expected more than 0", arguments.loss);
+  }
   if (!arguments.weighting.empty()) request.weighting = weighting_from(arguments.weighting);
   if (!arguments.floor.empty()) request.floor_per_sr = number_in(arguments.floor, "--floor");
   if (!arguments.variant.empty()) set_variant(request.model, arguments.variant);
@@ -133,9 +144,119 @@ void write_result(const FitResult& result, const std::filesystem::path& folder) 
   write_file(folder / "fit.json", to_json(result).dump(2) + "\n");
 }
 
+Json choice_json(const ModelChoice& choice) {
+  Json candidates = Json::array();
+  for (const Candidate& c : choice.candidates)
+    candidates.push_back({{"model", c.result.model.info().name},
+                          {"retro", c.result.model.retro},
+                          {"parameters", c.parameters},
+                          {"rms_log10", c.result.all.rms_log10},
+                          {"held_out_rms_log10", c.held_out_log10},
+                          {"worse_than_best", c.worse},
+                          {"standard_error", c.uncertain},
+                          {"told_apart", c.told_apart},
+                          {"aicc", c.aicc},
+                          {"bic", c.bic}});
+  return {{"sentence", choice.sentence},
+          {"folds", choice.folds},
+          {"best", choice.best},
+          {"chosen", choice.chosen},
+          {"candidates", candidates}};
+}
+
+std::string choice_csv(const ModelChoice& choice) {
+  std::string csv =
+      "model,retro,parameters,rms_log10,held_out_rms_log10,worse_than_best,standard_error,told_apart,aicc,bic\n";
+  for (const Candidate& c : choice.candidates)
+    csv += fmt::format("{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.8g},{:.8g}\n", c.result.model.info().name,
+                       c.result.model.retro ? "yes" : "no", c.parameters, c.result.all.rms_log10, c.held_out_log10,
+                       c.worse, c.uncertain, c.told_apart ? "yes" : "no", c.aicc, c.bic);
+  return csv;
+}
+
+void print_choice(const ModelChoice& choice) {
+  const double aicc = std::min_element(choice.candidates.begin(), choice.candidates.end(), [](auto& a, auto& b) {
+                        return a.aicc < b.aicc;
+                      })->aicc;
+  const double bic = std::min_element(choice.candidates.begin(), choice.candidates.end(), [](auto& a, auto& b) {
+                       return a.bic < b.bic;
+                     })->bic;
+  std::cout << fmt::format("{:<32} {:>10} {:>10} {:>10} {:>22} {:>10} {:>10}\n", "model", "parameters", "rms_log10",
+                           "held out", "excess over the best", "AICc", "BIC");
+  for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+    const Candidate& c = choice.candidates[i];
+    std::cout << fmt::format(
+        "{:<32} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}\n",
+        fmt::format("{}{}", c.result.model.info().name, c.result.model.retro ? ", retro" : ""), c.parameters,
+        c.result.all.rms_log10, c.held_out_log10,
+        i == choice.best ? std::string("best") : fmt::format("{:.2g} +- {:.2g}", c.worse, c.uncertain), c.aicc - aicc,
+        c.bic - bic, i == choice.chosen ? "  <- chosen" : "");
+  }
+  std::cout << choice.sentence << "\n\n";
+}
+
+/// --model auto: the chosen fit in OUT as if its model had been named, beside choice.csv.
+void run_choice(const Measurement& scan, const FitArguments& arguments, Common& common) {
+  FitArguments plain = arguments;
+  const FitRequest request = request_for(plain, "lambert", common);
+  Progress progress("auto");
+  const ModelChoice choice =
+      choose_model(scan, request, all_candidates(scan),
+                   [&](const std::string& what, int done, int count) { progress(what, done, count); });
+  const FitResult& chosen = choice.candidates[choice.chosen].result;
+  const std::filesystem::path out = arguments.out;
+  write_result(chosen, out);
+  write_file(out / "choice.csv", choice_csv(choice));
+  Json json = to_json(chosen);
+  json["choice"] = choice_json(choice);
+  write_file(out / "fit.json", json.dump(2) + "\n");
+  if (!chosen.converged) common.exit_code = 1;
+  if (common.json) {
+    std::cout << json.dump(2) << '\n';
+  } else {
+    print_choice(choice);
+    print_card(chosen);
+  }
+}
+
+/// --by-wavelength: a fit of its own for each, in OUT/<nm>nm, and one table of their parameters.
+void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, Common& common) {
+  const std::vector<double> wavelengths = scan.wavelengths();
+  if (wavelengths.size() < 2 || arguments.models.size() != 1 || arguments.models[0] == "auto")
+    throw input_error("--by-wavelength: {} wavelengths and {} models; expected 2 or more wavelengths and one model",
+                      wavelengths.size(), arguments.models.size());
+  const FitRequest request = request_for(arguments, arguments.models[0], common);
+  const std::filesystem::path out = arguments.out;
+  Json json = Json::array();
+  std::string csv;
+  for (const double nm : wavelengths) {
+    const FitResult result = fit(at_wavelength(scan, nm), request);
+    write_result(result, out / fmt::format("{:g}nm", nm));
+    json.push_back(to_json(result));
+    if (!common.json) print_card(result);
+    if (!result.converged) common.exit_code = 1;
+    if (csv.empty()) {
+      csv = "wavelength_nm";
+      for (const FittedParameter& p : result.parameters) csv += fmt::format(",{0},{0}_lo95,{0}_hi95", p.name);
+      csv += ",rms_log10\n";
+    }
+    csv += fmt::format("{:g}", nm);
+    for (const FittedParameter& p : result.parameters) csv += fmt::format(",{},{},{}", p.value, p.lo95, p.hi95);
+    csv += fmt::format(",{}\n", result.all.rms_log10);
+  }
+  write_file(out / "fits.json", json.dump(2) + "\n");
+  write_file(out / "by_wavelength.csv", csv);
+  if (common.json) std::cout << json.dump(2) << '\n';
+}
+
 void run_fit(const FitArguments& arguments, Common& common) {
   const Measurement scan = read_measurement(arguments.measurement);
   for (const std::string& note : scan.notes) std::cerr << "note: " << note << '\n';
+  if (arguments.by_wavelength) return run_by_wavelength(scan, arguments, common);
+  if (std::find(arguments.models.begin(), arguments.models.end(), "auto") != arguments.models.end()) {
+    if (arguments.models.size() > 1) throw input_error("--model auto: with other models; expected it alone");
+    return run_choice(scan, arguments, common);
+  }
   std::vector<FitRequest> requests;
   for (const std::string& name : arguments.models) requests.push_back(request_for(arguments, name, common));
   std::vector<FitResult> results;
@@ -171,12 +292,20 @@ void add_fit(CLI::App& app, Common& common) {
   add_common(*command, common);
   auto a = std::make_shared<FitArguments>();
   command->add_option("measurement", a->measurement, "Folder (scan.csv + measurement.yaml) or CSV file")->required();
-  command->add_option("--model", a->models, "One or more models, see `gonio models`")->required();
+  command
+      ->add_option(
+          "--model", a->models,
+          "One or more models, see `gonio models`; auto: the simplest that these data cannot tell from the best")
+      ->required();
   command->add_option("--metric", a->metric, "log, linear or cuberoot")->capture_default_str();
+  command->add_option("--loss", a->loss, "none, huber or cauchy, with a width if it shall not be found: huber=0.1")
+      ->capture_default_str();
   command->add_option("--weighting", a->weighting, "none (default of log) or cosine (default of the others)");
   command->add_option("--set", a->settings, "shadowing=NAME, variant=NAME, or PARAMETER=VALUE to hold it");
   command->add_option("--variant", a->variant, "Variant of the model");
   command->add_option("--material", a->material, "Database id instead of the measurement's; `perfect` reflects 1");
+  command->add_flag("--by-wavelength", a->by_wavelength,
+                    "Every wavelength with parameters of its own: a folder each, and by_wavelength.csv");
   command->add_option("--free", a->free, "n: fit the refractive index (k = 0) where no material is known");
   command->add_option(
       "--floor", a->floor,

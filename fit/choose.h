@@ -1,0 +1,43 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fit/fit.h"
+
+namespace gonio {
+
+/// A candidate as the choice sees it.
+struct Candidate {
+  FitResult result;  ///< fitted to all of the scan
+  int parameters = 0;
+  /// Squared log10 error of what was left out, of each fold, each fold fitted without its own points.
+  std::vector<double> fold_error;
+  double held_out_log10 = 0;        ///< root of their mean
+  double worse = 0, uncertain = 0;  ///< mean excess of fold_error over the best candidate's, and its standard error
+  double aicc = 0,
+         bic = 0;  ///< of the fit to all of the scan, errors taken as normal in the metric; for comparison only
+  bool told_apart =
+      false;  ///< worse by more than one standard error and by more than 1 % of the error: the data prefer the best one
+};
+
+struct ModelChoice {
+  std::vector<Candidate>
+      candidates;  ///< in order of cost: fewer parameters first, then those without a series, then the list's order
+  std::size_t best = 0, chosen = 0;  ///< least held-out error; the first that the data cannot tell from it
+  int folds = 0;
+  std::string sentence;
+};
+
+/// Every model that a scan can be fitted with: the whole list but the mirror and, without a wavelength, those that need one; lobes with
+/// facets or a mirror direction also turned back towards the light.
+std::vector<ModelSpec> all_candidates(const Measurement& measurement);
+
+/// No more model than the data need. Fits all candidates, then judges them by cross-validation over whole scans: one incidence angle
+/// (or one of up to 8 groups of them) is left out in turn, the rest fitted again from where the whole fit ended, and the log10 error of
+/// what was left out is compared pair by pair with the best candidate's. Chosen is the cheapest one that is not worse by more than the
+/// standard error of that difference, or by no more than 1 % of the error. Lobes with a scale of their own keep ks = 1. `request.model` and `hold_out` are not looked at. InputError below 3 incidence angles.
+ModelChoice choose_model(const Measurement& measurement, const FitRequest& request, std::vector<ModelSpec> specs,
+                         const std::function<void(const std::string& what, int done, int count)>& progress = {});
+
+}  // namespace gonio
