@@ -101,13 +101,6 @@ struct RowReader {
   }
 };
 
-/// What a value of the file's quantity is multiplied by to give f_r.
-double to_brdf(const std::string& quantity, double theta_o_deg) {
-  if (quantity == "brdf_cos") return 1 / cos_deg(theta_o_deg);
-  if (quantity == "reflectance_factor") return 1 / kPi<double>;
-  return 1;
-}
-
 /// false when the row is at 90° and therefore left out (every one of its cells has been checked).
 bool read_row(const RowReader& cell, const Columns& columns, const Measurement& scan, ScanPoint& point) {
   point.theta_i_deg = cell.zenith(columns.theta_i);
@@ -132,6 +125,14 @@ bool read_row(const RowReader& cell, const Columns& columns, const Measurement& 
   return true;
 }
 
+}  // namespace
+
+double to_brdf(const std::string& quantity, double theta_o_deg) {
+  if (quantity == "brdf_cos") return 1 / cos_deg(theta_o_deg);
+  if (quantity == "reflectance_factor") return 1 / kPi<double>;
+  return 1;
+}
+
 /// Each incidence angle that occurs (to 1e-6°), or 10° bins where there are too many to be a series.
 void group_by_incidence(Measurement& scan) {
   const auto rounded = [](const ScanPoint& p) { return std::round(p.theta_i_deg * 1e6) / 1e6; };
@@ -149,8 +150,6 @@ void group_by_incidence(Measurement& scan) {
         std::lower_bound(scan.incidences_deg.begin(), scan.incidences_deg.end(), group(point)) -
         scan.incidences_deg.begin());
 }
-
-}  // namespace
 
 std::vector<double> Measurement::wavelengths() const {
   std::set<double> distinct;

@@ -42,7 +42,8 @@ struct Measurement {
   bool incidences_binned = false;
   std::map<std::string, int> left_out;  ///< reason -> number of rows
   std::vector<std::string> notes;       ///< what the reader ignored
-  std::vector<std::string> conventions;  ///< how a foreign file was read: quantity, units, azimuth's zero, absolute or relative
+  std::vector<std::string>
+      conventions;  ///< how a foreign file was read: quantity, units, azimuth's zero, absolute or relative
 
   static constexpr std::size_t kMostIncidences = 40;
 
@@ -60,5 +61,11 @@ Measurement read_measurement(const std::filesystem::path& path);
 /// The two parts alone, from text (`file` names it in messages).
 Measurement parse_scan(std::string_view csv, const std::string& file, Measurement known = {});
 Measurement parse_measurement_yaml(const std::string& text, const std::string& file);
+
+/// What a value of `quantity` is multiplied by to give f_r in sr⁻¹ (1 for brdf and relative).
+double to_brdf(const std::string& quantity, double theta_o_deg);
+
+/// Fills incidences_deg, incidences_binned and each point's incidence, once the points are there.
+void group_by_incidence(Measurement& scan);
 
 }  // namespace gonio
