@@ -32,6 +32,7 @@ void add_fit(CLI::App& app, Common& common);
 void add_table(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);
 void add_assess(CLI::App& app, Common& common);
+void add_measurements(CLI::App& app, Common& common);
 void add_validate(CLI::App& app, Common& common);
 void add_report(CLI::App& app, Common& common);
 void add_assess_stability(CLI::App& assess, Common& common);

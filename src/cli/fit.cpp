@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "fit/choose.h"
 #include "fit/fit_json.h"
+#include "fit/formats/formats.h"
 #include "fit/plots.h"
 
 namespace gonio::cli {
@@ -250,7 +251,8 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
 }
 
 void run_fit(const FitArguments& arguments, Common& common) {
-  const Measurement scan = read_measurement(arguments.measurement);
+  const Measurement scan = read_any(arguments.measurement);
+  for (const std::string& convention : scan.conventions) std::cerr << "read as: " << convention << '\n';
   for (const std::string& note : scan.notes) std::cerr << "note: " << note << '\n';
   if (arguments.by_wavelength) return run_by_wavelength(scan, arguments, common);
   if (std::find(arguments.models.begin(), arguments.models.end(), "auto") != arguments.models.end()) {
@@ -291,7 +293,9 @@ void add_fit(CLI::App& app, Common& common) {
       "Metrics: log compares ln(f + f0), linear f*cos_o, cuberoot (f*cos_o)^(1/3). Exit 1: a fit did not converge.");
   add_common(*command, common);
   auto a = std::make_shared<FitArguments>();
-  command->add_option("measurement", a->measurement, "Folder (scan.csv + measurement.yaml) or CSV file")->required();
+  command->add_option("measurement", a->measurement,
+                      "Folder (scan.csv + measurement.yaml), CSV or foreign file (see `gonio measurements`)")
+      ->required();
   command
       ->add_option(
           "--model", a->models,

@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
   add_light(app, common);
   add_models(app, common);
   add_eval(app, common);
+  add_measurements(app, common);
   add_fit(app, common);
   add_table(app, common);
   add_render(app, common);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
+#include "fit/formats/formats.h"
 #include "reports/validation.h"
 
 namespace gonio::cli {
@@ -35,7 +36,9 @@ void run_validate(const ValidateArguments& arguments, const Common& common) {
   std::vector<Measurement> measurements;
   std::set<std::string> ids;
   for (const std::string& path : arguments.measurements.empty() ? bundled_measurements() : arguments.measurements) {
-    measurements.push_back(read_measurement(path));
+    measurements.push_back(read_any(path));
+    for (const std::string& convention : measurements.back().conventions)
+      std::cerr << fmt::format("{}: read as {}\n", path, convention);
     if (!ids.insert(measurements.back().id).second)
       throw input_error("{}: two measurements have this name; expected one folder each", measurements.back().id);
   }
@@ -69,7 +72,7 @@ void add_validate(CLI::App& app, Common& common) {
                   "         gonio validate my-scan/ --out out/my-scan          a folder with scan.csv and measurement.yaml, or a CSV");
   add_common(*command, common);
   auto arguments = std::make_shared<ValidateArguments>();
-  command->add_option("measurements", arguments->measurements, "Folders (scan.csv + measurement.yaml) or CSV files; none: the bundled ones");
+  command->add_option("measurements", arguments->measurements, "Folders (scan.csv + measurement.yaml), CSV or foreign files; none: the bundled ones");
   command->add_option("-o,--out", arguments->out, "Folder for the report and its files")->capture_default_str();
   command->add_option("--spp", arguments->spp, "Paths a pixel of the renders")->capture_default_str()->check(CLI::Range(1, 1000000));
   command->callback([&common, arguments] { run_validate(*arguments, common); });
