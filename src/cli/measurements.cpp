@@ -37,6 +37,14 @@ Measurement read(const std::string& path, const std::string& format) {
   return read_any(path, format.empty() ? std::nullopt : std::optional(format));
 }
 
+/// Of a foreign file as its reader said; ours has one form.
+std::vector<std::string> conventions_of(const Measurement& scan) {
+  if (!scan.conventions.empty()) return scan.conventions;
+  return {fmt::format("quantity: {} (measurement.yaml; brdf where it says nothing)", scan.quantity), "angles: degrees",
+          "azimuth: phi = phi_r - phi_i, 180 = mirror side",
+          scan.quantity == "relative" ? "scale: relative" : "scale: absolute, sr^-1"};
+}
+
 struct Range {
   double lo = 1e300, hi = -1e300;
   void add(double x) { lo = std::min(lo, x), hi = std::max(hi, x); }
@@ -65,7 +73,7 @@ Json info_json(const Measurement& scan) {
           {"phi_deg", range(ranges.phi)},
           {scan.quantity == "relative" ? "f_relative" : "f_per_sr", range(ranges.f)},
           {"mueller", scan.mueller_names},
-          {"conventions", scan.conventions},
+          {"conventions", conventions_of(scan)},
           {"left_out", scan.left_out},
           {"notes", scan.notes},
           {"source", scan.source},
@@ -97,7 +105,7 @@ void print_info(const Measurement& scan) {
   range("theta_i", ranges.theta_i, "degrees"), range("theta_o", ranges.theta_o, "degrees");
   range("phi", ranges.phi, "degrees");
   range("f", ranges.f, scan.quantity == "relative" ? "(relative)" : "per sr");
-  for (const std::string& convention : scan.conventions) std::cout << "  read as      " << convention << '\n';
+  for (const std::string& convention : conventions_of(scan)) std::cout << "  read as      " << convention << '\n';
   for (const auto& [reason, count] : scan.left_out) std::cout << fmt::format("  left out     {}: {}\n", count, reason);
   for (const std::string& note : scan.notes) std::cout << "  note         " << note << '\n';
 }
@@ -139,7 +147,7 @@ void convert(const ConvertArguments& arguments, const Common& common) {
   }
   if (common.json) {
     std::cout << Json{{"out", arguments.out},         {"format", to},
-                      {"points", scan.points.size()}, {"conventions", scan.conventions},
+                      {"points", scan.points.size()}, {"conventions", conventions_of(scan)},
                       {"left_out", scan.left_out},    {"not_written", lost}}
                      .dump(2)
               << '\n';

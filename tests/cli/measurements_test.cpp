@@ -30,6 +30,7 @@ TEST_CASE("measurements info says what is there and how it was read", "[cli][for
   CHECK(info["f_per_sr"] == Json::array({0.0625, 1.5}));
   CHECK(info["conventions"].size() == 4);
   CHECK(info["left_out"]["zenith angle of 90 degrees"] == 3);
+  CHECK(json_of({"info", std::string(GONIO_SOURCE_DIR) + "/measurements/aluminium-merl"})["conventions"].size() == 4);
   const Outcome text = run_gonio({"measurements", "info", sample("he.txt")});
   CHECK(text.status == 0);
   CHECK(text.out.find("read as      azimuth: signed") != std::string::npos);
