@@ -188,6 +188,35 @@ void keep_texts(const Header& header, Measurement& scan) {
   if (!header.channel.empty()) scan.conventions.push_back("channel: " + header.channel);
 }
 
+long stated_rows(const Header& header, const std::string& file) {
+  const Value* stated = header.find("NUM_POINTS");
+  if (stated == nullptr)
+    throw input_error("{}:{}: NUM_POINTS is missing; expected the number of rows before VARS", file, header.vars_line);
+  return whole_number(stated->text, "NUM_POINTS", 100000000, file, stated->line);
+}
+
+/// Every cell is checked, used or not.
+void add_row(const TextLine& row, const Header& header, PointCollector& points, const std::string& file) {
+  const std::vector<std::string_view> cells = words_of(row.text);
+  if (cells.size() != header.names.size())
+    throw input_error("{}:{}: row has {} cells; expected {} as in VARS", file, row.line, cells.size(),
+                      header.names.size());
+  std::vector<double> numbers;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    numbers.push_back(csv_number(cells[c], header.names[c], file, row.line));
+  const auto zenith = [&](std::size_t column) {
+    return zenith_deg(numbers[column], header.radians, header.names[column], file, row.line);
+  };
+  const double to_deg = header.radians ? 180 / kPi<double> : 1;
+  ScanPoint point;
+  point.theta_i_deg = zenith(header.theta_i), point.theta_o_deg = zenith(header.theta_o);
+  point.phi_i_deg = numbers[header.phi_i] * to_deg, point.phi_o_deg = numbers[header.phi_o] * to_deg;
+  for (const ValueColumn& column : header.values) {
+    point.wavelength_nm = column.wavelength_nm;
+    points.add(point, numbers[column.at], row.line);
+  }
+}
+
 }  // namespace
 
 bool is_astm(std::string_view head) {
@@ -202,35 +231,12 @@ Measurement read_astm(std::string_view bytes, const std::string& file) {
   PointCollector points({}, file);
   read_units(header, points.scan(), file);
   keep_texts(header, points.scan());
-  const Value* stated = header.find("NUM_POINTS");
-  if (stated == nullptr)
-    throw input_error("{}:{}: NUM_POINTS is missing; expected the number of rows before VARS", file, header.vars_line);
-  const long count = whole_number(stated->text, "NUM_POINTS", 100000000, file, stated->line);
+  const long count = stated_rows(header, file);
   long rows = 0;
   for (std::size_t at = first; at < lines.size(); ++at) {
-    const auto& [line, text] = lines[at];
-    if (text.empty()) continue;
-    if (++rows > count) throw input_error("{}:{}: more rows than NUM_POINTS; expected {}", file, line, count);
-    const std::vector<std::string_view> cells = words_of(text);
-    if (cells.size() != header.names.size())
-      throw input_error("{}:{}: row has {} cells; expected {} as in VARS", file, line, cells.size(),
-                        header.names.size());
-    const auto number = [&, line = line](std::size_t column) {
-      return csv_number(cells[column], header.names[column], file, line);
-    };
-    const auto zenith = [&, line = line](std::size_t column) {
-      return zenith_deg(number(column), header.radians, header.names[column], file, line);
-    };
-    const double to_deg = header.radians ? 180 / kPi<double> : 1;
-    ScanPoint point;
-    point.theta_i_deg = zenith(header.theta_i), point.theta_o_deg = zenith(header.theta_o);
-    point.phi_i_deg = number(header.phi_i) * to_deg, point.phi_o_deg = number(header.phi_o) * to_deg;
-    std::vector<double> all(cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c) all[c] = number(c);  // every cell is checked, used or not
-    for (const ValueColumn& column : header.values) {
-      point.wavelength_nm = column.wavelength_nm;
-      points.add(point, all[column.at], line);
-    }
+    if (lines[at].text.empty()) continue;
+    if (++rows > count) throw input_error("{}:{}: more rows than NUM_POINTS; expected {}", file, lines[at].line, count);
+    add_row(lines[at], header, points, file);
   }
   if (rows != count)
     throw input_error("{}:{}: the file ends after {} rows; expected {} as in NUM_POINTS", file, lines.back().line, rows,
