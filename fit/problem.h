@@ -45,7 +45,7 @@ struct FreeParameter {
   std::size_t place = 0;                                               ///< in the model's parameters, or kIndex
   std::string name, unit;
   double lo = 0, hi = 0;
-  bool linear = false;          ///< kd or ks
+  bool linear = false;          ///< kd or ks (a lobe's own factor moves in its logarithm, like a roughness)
   std::size_t group = kShared;  ///< the wavelength (FitPoint::group) whose kd or ks it is
 
   static constexpr std::size_t kShared = static_cast<std::size_t>(-1);

@@ -102,7 +102,7 @@ LaneFit::LaneFit(const FitProblem& problem, std::span<const std::size_t> points)
   const auto& parameters = problem.model.info().parameters;
   const auto diffuse = [&](std::size_t place) { return parameters[place].name == "kd" ? 0U : 1U; };
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].linear) held_[diffuse(i)] = problem.values[i];
+    if (parameters[i].name == "kd" || parameters[i].name == "ks") held_[diffuse(i)] = problem.values[i];
   if (std::none_of(parameters.begin(), parameters.end(), [](auto& p) { return p.name == "ks"; })) held_[1] = 0;
   std::size_t index = kHeld;
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
