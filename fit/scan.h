@@ -42,6 +42,7 @@ struct Measurement {
   bool incidences_binned = false;
   std::map<std::string, int> left_out;  ///< reason -> number of rows
   std::vector<std::string> notes;       ///< what the reader ignored
+  std::vector<std::string> conventions;  ///< how a foreign file was read: quantity, units, azimuth's zero, absolute or relative
 
   static constexpr std::size_t kMostIncidences = 40;
 
