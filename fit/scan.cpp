@@ -132,7 +132,8 @@ bool read_row(const RowReader& cell, const Columns& columns, const Measurement& 
   return true;
 }
 
-/// Each incidence angle that occurs (to 1e-6°), or 10° bins where there are too many to be a series.
+}  // namespace
+
 void group_by_incidence(Measurement& scan) {
   const auto rounded = [](const ScanPoint& p) { return std::round(p.theta_i_deg * 1e6) / 1e6; };
   std::set<double> distinct;
@@ -149,8 +150,6 @@ void group_by_incidence(Measurement& scan) {
         std::lower_bound(scan.incidences_deg.begin(), scan.incidences_deg.end(), group(point)) -
         scan.incidences_deg.begin());
 }
-
-}  // namespace
 
 std::vector<double> Measurement::wavelengths() const {
   std::set<double> distinct;

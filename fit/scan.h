@@ -58,4 +58,7 @@ Measurement read_measurement(const std::filesystem::path& path);
 Measurement parse_scan(std::string_view csv, const std::string& file, Measurement known = {});
 Measurement parse_measurement_yaml(const std::string& text, const std::string& file);
 
+/// Sets incidences_deg and each point's incidence: each angle that occurs (to 1e-6°), or 10° bins where there are too many to be a series.
+void group_by_incidence(Measurement& scan);
+
 }  // namespace gonio
