@@ -41,8 +41,8 @@ struct Words {
       if (left.front() == ';') {
         left.remove_prefix(std::min(left.find('\n'), left.size()));
       } else if (static_cast<unsigned char>(left.front()) <= 32) {
-        if (left.front() == '\0')
-          throw input_error("{}:{}: is not text (byte 0); expected an Integra table", file, line);
+        if (!std::isspace(static_cast<unsigned char>(left.front())))
+          throw input_error("{}:{}: is not text (byte {}); expected an Integra table", file, line, int(left.front()));
         line += left.front() == '\n';
         left.remove_prefix(1);
       } else {
