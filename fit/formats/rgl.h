@@ -90,9 +90,11 @@ struct RglResolution {
   std::size_t theta_i = 0, phi_i = 0, samples = 0, normals_theta = 0, normals_phi = 0;
 };
 
-/// Tables of a source. The normals' distribution is the one whose microfacets reflect back what the source does (section 4.2, power
-/// iteration), with a fiftieth of a cosine lobe added so that no direction is left without nodes; whether the source is
-/// isotropic, or symmetric in azimuth, is found by trying. At the nodes the tables give the source to float's rounding.
+/// Tables of a source. The normals' distribution D is the one whose microfacets reflect back what the source does (section 4.2, power
+/// iteration), with shares of √D, ⁴√D and a cosine lobe added so that faint directions have nodes too; the density of the samples and what
+/// the reader multiplies by come from the same D, so this changes only where the nodes are. Whether the source is isotropic, or symmetric in
+/// azimuth, is found by trying. At the nodes the tables give the source to float's rounding; nodes below the horizon hold what keeps
+/// the cells at the horizon smooth and not negative.
 /// InputError for a source that is not finite or negative, or reflects nothing.
 RglTable make_rgl(const RglSource& source, const RglResolution& resolution = {});
 

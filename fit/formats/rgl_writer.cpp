@@ -64,7 +64,7 @@ RglResolution resolved(const RglResolution& asked, Symmetry symmetry) {
   const auto either = [](std::size_t given, std::size_t usual) { return given > 0 ? given : usual; };
   return {either(asked.theta_i, isotropic ? 24 : 14),
           isotropic ? 1 : either(asked.phi_i, symmetry == Symmetry::quarter ? 9 : 33),
-          either(asked.samples, isotropic ? 64 : 32), either(asked.normals_theta, isotropic ? 512 : 192),
+          either(asked.samples, isotropic ? 64 : 48), either(asked.normals_theta, isotropic ? 512 : 192),
           isotropic ? 2 : either(asked.normals_phi, 97)};
 }
 
@@ -134,12 +134,25 @@ struct Normals {
       }
   }
 
-  /// ∫ D·cosθ dω = 1, a fiftieth of it spread evenly over projected directions.
+  /// ∫ D·cosθ dω = 1.
   void normalise() {
     double sum = 0;
     for (const Part& part : parts()) sum += part.weight * part.m.z;
-    constexpr double kEven = 0.02;
-    for (float& d : ndf.values) d = static_cast<float>((1 - kEven) * d / sum + kEven * 2 / kTurn);
+    for (float& d : ndf.values) d = static_cast<float>(d / sum);
+  }
+
+  /// Shares of wider lobes, √D and ⁴√D, and of an even one (found by trying on Gaussian, GGX and Ward lobes), so that faint directions have nodes too: a Gaussian's tail falls over many
+  /// decades within what would else be a single cell.
+  void widen() {
+    Normals root = *this, fourth = *this;
+    for (float& d : root.ndf.values) d = std::sqrt(d);
+    for (float& d : fourth.ndf.values) d = std::sqrt(std::sqrt(d));
+    root.normalise();
+    fourth.normalise();
+    constexpr double kRoot = 0.3, kFourth = 0.3, kEven = 0.03;
+    for (std::size_t k = 0; k < ndf.values.size(); ++k)
+      ndf.values[k] = static_cast<float>((1 - kRoot - kFourth - kEven) * ndf.values[k] + kRoot * root.ndf.values[k] +
+                                         kFourth * fourth.ndf.values[k] + kEven * 2 / kTurn);
   }
 };
 
@@ -173,6 +186,7 @@ Normals distribution_of(const RglSource& source, const RglResolution& resolution
       }
     normals.normalise();
   }
+  normals.widen();
   normals.project();
   return normals;
 }
@@ -194,8 +208,8 @@ RglGrid visible_normals(const RglTable& table, bool isotropic) {
   return vndf;
 }
 
-/// The nodes below the horizon of one slice (NaN so far): straight on from the two before them in their row or column, so that the
-/// zero of f_r·cos_o falls where the horizon is, and held between -1 and 1 times the nearest one; 0 where there are none.
+/// The nodes below the horizon of one slice (NaN so far): straight on from the two before them in their row or column, held between
+/// 0 (no interpolated value is negative) and the nearest one; 0 where there are none.
 void continue_below(float* values, std::size_t samples) {
   const std::vector<float> seen(values, values + samples * samples);
   const auto at = [&](std::ptrdiff_t row, std::ptrdiff_t column) {
@@ -210,7 +224,7 @@ void continue_below(float* values, std::size_t samples) {
     for (const auto& [down, right] : {std::pair{0, 1}, {0, -1}, {1, 0}, {-1, 0}}) {
       const float near = at(row + down, column + right), far = at(row + 2 * down, column + 2 * right);
       if (std::isnan(near) || std::isnan(far)) continue;
-      sum += std::clamp(2.0 * near - far, -1.0 * near, 1.0 * near);
+      sum += std::clamp(2.0 * near - far, 0.0, 1.0 * near);
       ++count;
     }
     values[k] = count > 0 ? static_cast<float>(sum / count) : 0.0f;

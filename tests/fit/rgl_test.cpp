@@ -144,6 +144,30 @@ TEST_CASE("a written BRDF is the source at the nodes and near it between them: a
   CHECK(share(errors, 0.99) < 0.08);
 }
 
+TEST_CASE("a Gaussian lobe keeps its form down to 1e-4 of its peak", "[fit][rgl]") {
+  // Normals of Beckmann, alpha = 0.2, without shadowing: f = D/(4·cos_i·cos_o).
+  const auto f = [](const UnitVector<double>& i, const UnitVector<double>& o, std::size_t) {
+    const UnitVector<double> m = normalised(i.x + o.x, i.y + o.y, i.z + o.z);
+    const double tan2 = (m.x * m.x + m.y * m.y) / (m.z * m.z);
+    return std::exp(-tan2 / 0.04) / (M_PI * 0.04 * std::pow(m.z, 4)) / (4 * i.z * o.z);
+  };
+  const RglBrdf written(make_rgl({f, {550}, ""}));
+  double sum = 0;
+  int count = 0;
+  for (double theta_i = 0; theta_i < 76; theta_i += 15)
+    for (double theta_o = 0; theta_o < 76; theta_o += 3)
+      for (double phi = 0; phi <= 180; phi += 20) {
+        const UnitVector<double> i = direction_deg(theta_i, 40), o = direction_deg(theta_o, 40 + phi);
+        if (f(i, o, 0) < 1e-4 * f(direction_deg(75, 0), direction_deg(75, 180), 0)) continue;
+        const double error = std::log10(std::max(written.f(i, o, 550), 1e-30) / f(i, o, 0));
+        sum += error * error;
+        ++count;
+      }
+  INFO("rms of log10: " << std::sqrt(sum / count) << " of " << count);
+  CHECK(count > 500);
+  CHECK(std::sqrt(sum / count) < 0.01);
+}
+
 TEST_CASE("the directions drawn through a written file's tables have density 1 in all", "[fit][rgl]") {
   const RglBrdf written(make_rgl(sample_source({0.3, 0.3, 0.2, 0.6})));
   const UnitVector<double> i = direction_deg(35, 20);
