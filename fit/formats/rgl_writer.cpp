@@ -141,8 +141,8 @@ struct Normals {
     for (float& d : ndf.values) d = static_cast<float>(d / sum);
   }
 
-  /// Shares of wider lobes, √D and ⁴√D, and of an even one (found by trying on Gaussian, GGX and Ward lobes), so that faint directions have nodes too: a Gaussian's tail falls over many
-  /// decades within what would else be a single cell.
+  /// Shares of wider lobes, √D and ⁴√D, and of an even one (found by trying on Gaussian, GGX and Ward lobes), so that faint directions have
+  /// nodes too: a Gaussian's tail falls over many decades within what would else be a single cell.
   void widen() {
     Normals root = *this, fourth = *this;
     for (float& d : root.ndf.values) d = std::sqrt(d);

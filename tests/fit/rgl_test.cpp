@@ -200,6 +200,15 @@ TEST_CASE("an RGL file becomes a scan that says how it was read", "[fit][rgl]") 
   for (const char* word : {"quantity", "absolute", "radians", "x axis", "thinned"}) CHECK(all.find(word) != all.npos);
 }
 
+TEST_CASE("the three formats are told apart by their first bytes", "[fit][rgl]") {
+  const std::string rgl = rgl_file(small_rgl()).substr(0, 4096),
+                    ddr = "TypeSym ASymmetrical\nTypeData Luminance Absolute\n",
+                    xml = "<?xml version=\"1.0\"?>\n<WindowElement>";
+  for (const auto& [name, head] : {std::pair{"rgl", rgl}, {"ddr", ddr}, {"bsdf-xml", xml}})
+    for (const char* other : {"rgl", "ddr", "bsdf-xml"})
+      CHECK(format_named(other).recognises(head) == (std::string_view(name) == other));
+}
+
 TEST_CASE("sources that are no BRDF are not written", "[fit][rgl]") {
   const auto never = [](double value) {
     return RglSource{[value](const auto&, const auto&, std::size_t) { return value; }, {550}, ""};
