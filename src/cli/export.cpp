@@ -77,6 +77,7 @@ void run_export(const ExportArguments& arguments, const Common& common) {
                 {"largest_log10", made.error.largest_log10},
                 {"values", made.error.pairs},
                 {"vanishing", made.error.vanishing},
+                {"delta_left_out", made.error.delta},
                 {"delta_e_2000", {{"mean", made.error.sphere.mean}, {"largest", made.error.sphere.largest}}}};
     std::cout << answer.dump(2) << '\n';
   } else {

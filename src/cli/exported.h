@@ -26,6 +26,7 @@ struct ExportError {
   double rms_log10 = 0, largest_log10 = 0;
   std::size_t pairs = 0, vanishing = 0;  ///< values above 1e-4 of the grid's peak: compared; gone in the export
   VisibleError sphere{0, 0};
+  double delta = 0;  ///< largest share of the light in a delta, which is left out
 
   /// The line of the file's header.
   std::string described() const;
