@@ -6,7 +6,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "fit/formats/bsdf_xml.h"
+#include "fit/formats/ddr.h"
 #include "fit/formats/readers.h"
+#include "fit/formats/rgl.h"
 
 namespace gonio {
 namespace {
@@ -53,6 +56,15 @@ std::span<const Format> formats() {
       Format{"table", ".txt", "plain table of angles whose comments say how to read it", is_angle_table,
              read_angle_table},
       Format{"merl", ".binary", "MERL BRDF database", is_merl, read_merl},
+      Format{"rgl", ".bsdf", "RGL material database, tensor file (Dupuy & Jakob 2018)",
+             [](std::string_view head) { return head.starts_with(std::string_view("tensor_file\0", 12)); }, read_rgl},
+      Format{"ddr", ".ddr", "Integra diffuse distribution, text",
+             [](std::string_view head) {
+               return head.find("TypeSym") != head.npos && head.find("TypeData") != head.npos;
+             },
+             read_ddr},
+      Format{"bsdf-xml", ".xml", "Radiance/LBNL BSDF, Klems matrix or tensor tree",
+             [](std::string_view head) { return head.find("<WindowElement") != head.npos; }, read_bsdf_xml},
   };
   return all;
 }

@@ -5,6 +5,7 @@
 
 #include "assess/brdf_error.h"
 #include "assess/counted.h"
+#include "assess/sphere_difference.h"
 
 namespace gonio {
 
@@ -41,9 +42,6 @@ std::vector<DiffractionCost> diffraction_costs();
 std::vector<double> middle_values(const ModelInfo& info);
 
 /// ΔE_2000 (D65, 1931 observer) on a sphere of gold lit at 45° from the eye, its brightest point Y = 100: `spec` against `exact`.
-struct VisibleError {
-  double mean, largest;
-};
 VisibleError visible_error(const ModelSpec& spec, const ModelSpec& exact, const std::vector<double>& values);
 
 }  // namespace gonio

@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   add_eval(app, common);
   add_measurements(app, common);
   add_fit(app, common);
+  add_export(app, common);
   add_table(app, common);
   add_render(app, common);
   add_assess(app, common);
