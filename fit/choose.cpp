@@ -51,13 +51,18 @@ Measurement thinned(const Measurement& scan) {
   return some;
 }
 
-/// Mean squared log10 error of a fit over points it has not seen; those that a logarithm cannot judge are passed over.
-double error_of(const FitResult& fitted, const Measurement& points) {
+/// Which scan a point belongs to: an incidence and 30 degrees of azimuth.
+constexpr std::size_t kSectors = 12;
+std::size_t scan_of(const ScanPoint& p) {
+  const double turn = p.phi_deg() / 360 + 0.5 / kSectors;
+  return p.incidence * kSectors + std::min(kSectors - 1, static_cast<std::size_t>((turn - std::floor(turn)) * kSectors));
+}
+
+/// Adds the squared log10 errors of a fit at points it has not seen, scan by scan; those that a logarithm cannot judge are passed over.
+void add_errors(const FitResult& fitted, const Measurement& points, std::vector<double>& squares) {
   const FittedMaterial material = fitted_material(fitted);
   const Brdf<double> brdf = material.brdf();
   std::map<double, Interface<double>> surfaces;
-  double sum = 0;
-  int count = 0;
   for (const ScanPoint& p : points.points) {
     if (!(p.f_per_sr > 0)) continue;
     const double nm = p.has_wavelength() ? p.wavelength_nm : fitted.assumed_wavelength_nm.value_or(1000);
@@ -65,10 +70,9 @@ double error_of(const FitResult& fitted, const Measurement& points) {
         surfaces.find(nm) != surfaces.end() ? surfaces.find(nm) : surfaces.emplace(nm, material.surface(nm)).first;
     const double f = evaluate(brdf, directions_from_deg(p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.phi_i_deg),
                               surface->second, nm * 1e-3);
-    sum += square(std::log10((f + fitted.floor_per_sr) / (p.f_per_sr + fitted.floor_per_sr)));
-    ++count;
+    squares[scan_of(p)] +=
+        square(std::log10((f + fitted.floor_per_sr) / (p.f_per_sr + fitted.floor_per_sr)));
   }
-  return count > 0 ? sum / count : 0;
 }
 
 /// Whether a lobe's own factor (A of the ABC laws) does what ks does.
@@ -93,24 +97,36 @@ std::string name_of(const ModelSpec& spec) {
   return fmt::format("{}{}", spec.info().name, spec.retro ? " (turned back)" : "");
 }
 
-/// Excess of each candidate over the best, fold by fold.
+/// Excess of each candidate over the best, scan by scan.
 void compare(ModelChoice& choice) {
-  const auto folds = static_cast<double>(choice.folds);
-  for (Candidate& c : choice.candidates)
-    c.held_out_log10 = std::sqrt(std::accumulate(c.fold_error.begin(), c.fold_error.end(), 0.0) / folds);
+  const std::vector<int>& points = choice.scan_points;
+  double all = 0;
+  for (const int n : points) all += n;
+  const auto mean = [&](const std::vector<double>& of) {
+    double sum = 0;
+    for (std::size_t s = 0; s < of.size(); ++s) sum += points[s] * of[s];
+    return sum / all;
+  };
+  for (Candidate& c : choice.candidates) c.held_out_log10 = std::sqrt(mean(c.scan_error));
   const auto less = [](const Candidate& a, const Candidate& b) { return a.held_out_log10 < b.held_out_log10; };
   choice.best = static_cast<std::size_t>(std::min_element(choice.candidates.begin(), choice.candidates.end(), less) -
                                          choice.candidates.begin());
-  const std::vector<double> best = choice.candidates[choice.best].fold_error;
-  for (Candidate& c : choice.candidates) {
+  const auto standard_error = [&](const std::vector<double>& of) {
+    const double middle = mean(of), scans = static_cast<double>(of.size());
     double squares = 0;
-    for (std::size_t f = 0; f < best.size(); ++f) c.worse += (c.fold_error[f] - best[f]) / folds;
-    for (std::size_t f = 0; f < best.size(); ++f) squares += square(c.fold_error[f] - best[f] - c.worse);
-    c.uncertain = std::sqrt(squares / (folds * (folds - 1)));
-    c.told_apart = c.worse > std::max(c.uncertain, kNoMatter * square(choice.candidates[choice.best].held_out_log10));
+    for (std::size_t s = 0; s < of.size(); ++s) squares += square(points[s] * (of[s] - middle) / all);
+    return std::sqrt(squares * scans / std::max(1.0, scans - 1));
+  };
+  const std::vector<double> best = choice.candidates[choice.best].scan_error;
+  choice.best_uncertain = standard_error(best);
+  for (Candidate& c : choice.candidates) {
+    std::vector<double> excess = c.scan_error;
+    for (std::size_t s = 0; s < best.size(); ++s) excess[s] -= best[s];
+    c.worse = mean(excess), c.uncertain = standard_error(excess);
+    c.told_apart = c.worse > std::max(std::min(c.uncertain, choice.best_uncertain), kNoMatter * mean(best));
   }
-  const auto enough = std::find_if(choice.candidates.begin(), choice.candidates.end(),
-                                   [](const Candidate& c) { return !c.told_apart; });
+  const auto enough =
+      std::find_if(choice.candidates.begin(), choice.candidates.end(), [](const Candidate& c) { return !c.told_apart; });
   choice.chosen = static_cast<std::size_t>(enough - choice.candidates.begin());
 }
 
@@ -165,6 +181,11 @@ ModelChoice choose_model(const Measurement& measurement, const FitRequest& reque
   std::vector<Split> splits;
   for (int f = 0; f < choice.folds; ++f) splits.push_back(split(some, fold, static_cast<std::size_t>(f)));
 
+  std::vector<int> count_of(measurement.incidences_deg.size() * kSectors, 0);
+  for (const ScanPoint& p : some.points) count_of[scan_of(p)] += p.f_per_sr > 0;
+  for (const int n : count_of)
+    if (n > 0) choice.scan_points.push_back(n);
+
   for (const ModelSpec& spec : specs) {
     if (progress) progress(name_of(spec), static_cast<int>(choice.candidates.size()), static_cast<int>(specs.size()));
     FitRequest whole = request;
@@ -173,13 +194,19 @@ ModelChoice choose_model(const Measurement& measurement, const FitRequest& reque
     Candidate candidate;
     candidate.result = fit(measurement, whole);
     candidate.parameters = free_parameters(candidate.result);
-    candidate.fold_error.resize(splits.size());
+    std::vector<std::vector<double>> squares(splits.size(), std::vector<double>(count_of.size(), 0.0));
     tbb::parallel_for(std::size_t{0}, splits.size(), [&](std::size_t f) {
       FitRequest without = whole;
       without.begin = candidate.result.values(), without.starts = 1;
       without.floor_per_sr = candidate.result.floor_per_sr;
-      candidate.fold_error[f] = error_of(fit(splits[f].rest, without), splits[f].left_out);
+      add_errors(fit(splits[f].rest, without), splits[f].left_out, squares[f]);
     });
+    for (std::size_t s = 0; s < count_of.size(); ++s) {
+      if (count_of[s] == 0) continue;
+      double sum = 0;
+      for (const auto& of_fold : squares) sum += of_fold[s];
+      candidate.scan_error.push_back(sum / count_of[s]);
+    }
     information_criteria(candidate);
     choice.candidates.push_back(std::move(candidate));
   }

@@ -11,10 +11,10 @@ namespace gonio {
 struct Candidate {
   FitResult result;  ///< fitted to all of the scan
   int parameters = 0;
-  /// Squared log10 error of what was left out, of each fold, each fold fitted without its own points.
-  std::vector<double> fold_error;
+  /// Mean squared log10 error of each scan (an incidence and 30 degrees of azimuth), fitted without its incidence.
+  std::vector<double> scan_error;
   double held_out_log10 = 0;        ///< root of their mean
-  double worse = 0, uncertain = 0;  ///< mean excess of fold_error over the best candidate's, and its standard error
+  double worse = 0, uncertain = 0;  ///< mean excess of scan_error over the best candidate's, and its standard error
   double aicc = 0,
          bic = 0;  ///< of the fit to all of the scan, errors taken as normal in the metric; for comparison only
   bool told_apart =
@@ -26,6 +26,8 @@ struct ModelChoice {
       candidates;  ///< in order of cost: fewer parameters first, then those without a series, then the list's order
   std::size_t best = 0, chosen = 0;  ///< least held-out error; the first that the data cannot tell from it
   int folds = 0;
+  double best_uncertain = 0;  ///< standard error of the best candidate's mean squared error, between scans
+  std::vector<int> scan_points;  ///< of each scan: the weights of the means
   std::string sentence;
 };
 
@@ -35,8 +37,9 @@ std::vector<ModelSpec> all_candidates(const Measurement& measurement);
 
 /// No more model than the data need. Fits all candidates, then judges them by cross-validation over whole scans: one incidence angle
 /// (or one of up to 8 groups of them) is left out in turn, the rest fitted again from where the whole fit ended, and the log10 error of
-/// what was left out is compared pair by pair with the best candidate's. Chosen is the cheapest one that is not worse by more than the
-/// standard error of that difference, or by no more than 1 % of the error. Lobes with a scale of their own keep ks = 1. `request.model` and `hold_out` are not looked at. InputError below 3 incidence angles.
+/// what was left out is compared scan by scan with the best candidate's. Chosen is the cheapest one whose excess lies within its own
+/// standard error and within that of the best error itself (Breiman et al. 1984, the one-standard-error rule; an excess that only a few scans
+/// show is uncertain, but it is there), or makes less than 1 % of the error. Lobes with a scale of their own keep ks = 1. `request.model` and `hold_out` are not looked at. InputError below 3 incidence angles.
 ModelChoice choose_model(const Measurement& measurement, const FitRequest& request, std::vector<ModelSpec> specs,
                          const std::function<void(const std::string& what, int done, int count)>& progress = {});
 

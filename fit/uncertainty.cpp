@@ -108,7 +108,7 @@ struct Spectrum {
     }
     if (count == 0) return;
     scaled = triangle_of(scaled);
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
     singular = svd.singularValues();
     v = svd.matrixV();
   }
