@@ -88,20 +88,20 @@ TEST_CASE("a profile that leaves the box is open there", "[fit][profile]") {
 }
 
 TEST_CASE("few noisy points: a profile misses the truth on both sides alike, as it says", "[fit][profile][slow]") {
-  // Oren and Nayar's sigma enters by its square: an interval that is symmetric in the logarithm is too long below and too short
+  // Oren and Nayar's sigma enters by its square: an interval that is symmetric in the logarithm is too short below and too long
   // above. Of 1,000 repeats a true 95 % misses 25 on either side: outside [10, 40] by chance with probability 0.002; fixed seeds.
   constexpr int kRepeats = 1000;
-  const std::vector<double> truth{0.25, 0.0, 0.7};
+  const std::vector<double> truth{0.15, 0.0, 0.7};
   const ModelSpec spec = spec_of("oren-nayar");
   const Measurement clean = few_points(60, {-75, -60, -45, -30, 0, 30, 60, 75});
   struct Misses {
     std::atomic<int> below = 0, above = 0;  ///< of the truth: how often the interval lies wholly on that side
-    void count(const FittedParameter& p, double value) { below += p.hi95 < value, above += p.lo95 > value; }
+    void count(const FittedParameter& p, double value) { below += p.hi95<value, above += p.lo95> value; }
     int uneven() const { return std::abs(below - 25) + std::abs(above - 25); }
   } curvature, profile;
   tbb::parallel_for(0, kRepeats, [&](int repeat) {
     const auto seed = static_cast<std::uint64_t>(90000 + repeat);
-    const Measurement scan = synthetic(clean, spec, truth, perfect_interface<double>(), 0.1, seed);
+    const Measurement scan = synthetic(clean, spec, truth, perfect_interface<double>(), 0.07, seed);
     FitRequest request = request_of("oren-nayar", {{"kd", 0.0}});
     request.starts = 2;
     curvature.count(fit(scan, request).parameters[0], truth[0]);
@@ -110,6 +110,8 @@ TEST_CASE("few noisy points: a profile misses the truth on both sides alike, as 
   });
   INFO("of " << kRepeats << ", below and above the truth: curvature " << curvature.below << ", " << curvature.above
              << "; profile " << profile.below << ", " << profile.above);
+  // Measured: 3 and 40 by curvature, 31 and 24 by profile.
+  CHECK(curvature.below < 10);
   CHECK(profile.uneven() < curvature.uneven());
   CHECK(profile.below >= 10);
   CHECK(profile.below <= 40);
