@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   add_models(app, common);
   add_eval(app, common);
   add_fit(app, common);
+  add_batch(app, common);
   add_table(app, common);
   add_render(app, common);
   add_assess(app, common);
