@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <memory>
 
 #include "catch.h"
 #include "fit/start.h"
@@ -70,6 +71,25 @@ TEST_CASE("a profile is Student's interval of the value itself where f is linear
     INFO(p.name);
     CHECK(p.lo95 == Approx(p.value - half).epsilon(1e-5));
     CHECK(p.hi95 == Approx(p.value + half).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("with small errors every profile nears the curvature, n's among them", "[fit][profile]") {
+  const Measurement scan = synthetic(empty_scan(5), spec_of("torrance-sparrow"), std::vector<double>{0.25, 0.1, 0.8},
+                                     Interface<double>{1.7, 0.0}, 0.002, 13);
+  FitRequest request = request_of("torrance-sparrow");
+  request.material.reset(), request.free_n = true;
+  const FitResult curvature = fit(scan, request);
+  request.profile_intervals = true;
+  const FitResult profile = fit(scan, request);
+  REQUIRE(profile.parameters.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const FittedParameter &p = profile.parameters[i], &c = curvature.parameters[i];
+    const double half = 0.5 * (c.hi95 - c.lo95);
+    INFO(p.name << ": " << p.lo95 << " to " << p.hi95 << ", by curvature " << c.lo95 << " to " << c.hi95);
+    CHECK(p.interval95_kind == "profile");
+    CHECK(p.lo95 == Approx(c.lo95).margin(0.1 * half));
+    CHECK(p.hi95 == Approx(c.hi95).margin(0.1 * half));
   }
 }
 
