@@ -106,7 +106,10 @@ void print_card(const FitResult& result) {
     const std::string error =
         p.standard_error ? fmt::format(" +- {:.2g}  (95 %: {:.6g} to {:.6g})", *p.standard_error, p.lo95, p.hi95)
         : p.held         ? " (held)"
-                         : "";
+        : p.interval95_kind == "profile"
+            ? fmt::format("  (95 %: {:.6g}{} to {:.6g}{})", p.lo95, p.lo_open ? ", the box's end," : "", p.hi95,
+                          p.hi_open ? ", the box's end" : "")
+            : "";
     std::cout << fmt::format("  {:<15} {:.7g}{}{}{}{}\n", p.name, p.value, p.unit == "1" ? "" : " " + p.unit, error,
                              p.at_bound ? "  at its bound" : "", p.identifiable ? "" : "  not identifiable");
   }
