@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "fit/fitted_material.h"
 #include "fit/prepare.h"
+#include "fit/profile_likelihood.h"
 #include "fit/solver.h"
 #include "fit/start.h"
 #include "fit/uncertainty.h"
@@ -257,6 +258,8 @@ FitResult fit(const Measurement& measurement, const FitRequest& request) {
   const std::optional<std::size_t> at_zero = try_zero(ready.problem, best);
   const Uncertainty errors = uncertainty(ready.problem, best);
   store_parameters(ready.problem, best, errors, at_zero, result);
+  if (request.profile_intervals) use_profile_intervals(ready.problem, best, result);
+  result.next_measurement = advice(ready.problem, best, errors);
   store_correlation(ready.problem, errors, result);
   store_points(measurement, ready, ready.problem, best.x, result);
   judge(ready, result);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "brdf/models.h"
+#include "fit/next_measurement.h"
 #include "fit/problem.h"
 #include "fit/scan.h"
 
@@ -31,16 +32,19 @@ struct FitRequest {
   std::vector<double> begin;                     ///< values of the model's parameters where one more start begins
   Loss loss = Loss::none;                        ///< what becomes of large residuals
   double loss_width = 0;  ///< in the residuals' unit; 0: Huber's 1.345 or Cauchy's 2.385 times their spread in a first fit
+  bool profile_intervals = false;                ///< intervals of the profile likelihood (fit/profile_likelihood.h)
   std::function<void(int done, int count)> progress;  ///< called from any thread, one call at a time
 };
 
-/// A fitted number. Intervals are Student's, 95 %, in the logarithm of the parameter.
+/// A fitted number. Intervals are 95 %: Student's in the logarithm of the parameter, or those of the profile likelihood.
 struct FittedParameter {
   std::string name, unit;
   double value = 0;
   std::optional<double> standard_error;  ///< absent when held, at a bound or not identifiable
   double lo95 = 0, hi95 = 0;             ///< the search box where there is no standard error
   bool held = false, at_bound = false, identifiable = true;
+  std::string interval95_kind = "curvature";  ///< or "profile": of the profile likelihood
+  bool lo_open = false, hi_open = false;      ///< of a profile: the search box ended first
 };
 
 /// Errors of a set of points: rms in the metric's own unit, rms_log10 of log10((f + f0)/(y + f0)) over positive y.
@@ -88,7 +92,8 @@ struct FitResult {
   int points_used = 0;
   std::map<std::string, int> left_out;
   std::vector<std::string> warnings;
-  std::vector<FittedPoint> points;  ///< all of the scan, in its order
+  std::optional<NextMeasurement> next_measurement;  ///< where one more point would help most
+  std::vector<FittedPoint> points;                  ///< all of the scan, in its order
 
   std::string measurement_id, name, source, licence, quantity;
 

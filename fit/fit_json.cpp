@@ -19,6 +19,8 @@ Json parameter(const FittedParameter& p) {
   Json json{{"value", p.value},       {"standard_error", or_null(p.standard_error)},
             {"unit", p.unit},         {"interval95", {p.lo95, p.hi95}},
             {"at_bound", p.at_bound}, {"identifiable", p.identifiable}};
+  json["interval95_kind"] = p.interval95_kind;
+  if (p.lo_open || p.hi_open) json["interval95_open"] = {p.lo_open, p.hi_open};
   if (p.held) json["held"] = true;
   return json;
 }
@@ -42,6 +44,11 @@ Json residuals(const FitResult& result) {
   json["incidences_binned"] = result.incidences_binned;
   json["neighbour_correlation"] = result.neighbour_correlation;
   return json;
+}
+
+Json next(const NextMeasurement& n) {
+  return {{"theta_i_deg", n.theta_i_deg}, {"theta_o_deg", n.theta_o_deg},       {"phi_deg", n.phi_deg},
+          {"parameter", n.parameter},     {"log_error_before", n.error_before}, {"log_error_after", n.error_after}};
 }
 
 }  // namespace
@@ -70,6 +77,7 @@ Json to_json(const FitResult& result) {
   json["converged"] = result.converged;
   json["points"] = {{"used", result.points_used}, {"left_out", Json(result.left_out)}};
   json["warnings"] = result.warnings;
+  json["next_measurement"] = result.next_measurement ? next(*result.next_measurement) : Json(nullptr);
   json["source"] = {{"measurement", result.measurement_id},
                     {"name", stated(result.name)},
                     {"source", stated(result.source)},

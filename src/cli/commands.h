@@ -30,6 +30,7 @@ void add_models(CLI::App& app, Common& common);
 void add_eval(CLI::App& app, Common& common);
 void add_fit(CLI::App& app, Common& common);
 void add_export(CLI::App& app, Common& common);
+void add_batch(CLI::App& app, Common& common);
 void add_table(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);
 void add_assess(CLI::App& app, Common& common);

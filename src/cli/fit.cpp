@@ -24,7 +24,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct FitArguments {
-  std::string measurement, metric = "log", loss = "none", weighting, variant, hold_out = "middle", material, floor, out;
+  std::string measurement, metric = "log", loss = "none", weighting, variant, hold_out = "middle", material, floor, out,
+                           intervals = "curvature";
   std::vector<std::string> models, settings, free;
   int starts = 16;
   bool by_wavelength = false;
@@ -103,6 +104,7 @@ FitRequest request_for(const FitArguments& arguments, const std::string& name, c
   apply_hold_out(arguments.hold_out, request);
   request.starts = arguments.starts;
   request.seed = common.seed;
+  request.profile_intervals = arguments.intervals == "profile";
   return request;
 }
 
@@ -116,7 +118,10 @@ void print_card(const FitResult& result) {
     const std::string error =
         p.standard_error ? fmt::format(" +- {:.2g}  (95 %: {:.6g} to {:.6g})", *p.standard_error, p.lo95, p.hi95)
         : p.held         ? " (held)"
-                         : "";
+        : p.interval95_kind == "profile"
+            ? fmt::format("  (95 %: {:.6g}{} to {:.6g}{})", p.lo95, p.lo_open ? ", the box's end," : "", p.hi95,
+                          p.hi_open ? ", the box's end" : "")
+            : "";
     std::cout << fmt::format("  {:<15} {:.7g}{}{}{}{}\n", p.name, p.value, p.unit == "1" ? "" : " " + p.unit, error,
                              p.at_bound ? "  at its bound" : "", p.identifiable ? "" : "  not identifiable");
   }
@@ -128,6 +133,7 @@ void print_card(const FitResult& result) {
     std::cout << fmt::format("  left out: incidence {:g} degrees, {} points, rms_log10 {:.4g}\n",
                              result.held_out->theta_i_deg, result.held_out->points, result.held_out->rms_log10);
   for (const std::string& warning : result.warnings) std::cout << "  warning: " << warning << '\n';
+  if (result.next_measurement) std::cout << "  next: " << sentence(*result.next_measurement) << '\n';
 }
 
 /// One row a model, the best first in no particular order of trust: the reader judges by the held-out error.
@@ -316,6 +322,11 @@ void add_fit(CLI::App& app, Common& common) {
       "f0 per sr of the log metric (default: smallest stated deviation, else 1e-3 of the smallest value)");
   command->add_option("--starts", a->starts, "Number of starts")->check(CLI::Range(1, 4096))->capture_default_str();
   command->add_option("--hold-out", a->hold_out, "Incidence angle in degrees to leave out of the fit; middle; none")
+      ->capture_default_str();
+  command
+      ->add_option("--intervals", a->intervals,
+                   "curvature (Student's, of the logarithm) or profile (of the likelihood)")
+      ->check(CLI::IsMember({"curvature", "profile"}))
       ->capture_default_str();
   command->add_option("-o,--out", a->out, "Folder to write")->required();
   command->callback([&common, a] { run_fit(*a, common); });

@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   add_measurements(app, common);
   add_fit(app, common);
   add_export(app, common);
+  add_batch(app, common);
   add_table(app, common);
   add_render(app, common);
   add_assess(app, common);

@@ -7,7 +7,7 @@ using Arguments = std::vector<std::string>;
 
 TEST_CASE("every subcommand has help with an example", "[cli]") {
   const auto name = GENERATE(as<std::string>(), "materials list", "materials show", "fresnel", "color", "models",
-                             "eval", "fit", "table", "table limits", "render", "validate",
+                             "eval", "fit", "batch", "table", "table limits", "render", "validate",
                              "measurements info", "measurements convert", "measurements plot", "measurements compare");
   Arguments arguments;
   for (std::size_t at = 0; at < name.size();
