@@ -12,8 +12,8 @@
 namespace gonio {
 namespace {
 
-/// Ends of one minimum: costs and places equal to this.
-constexpr double kSameCost = 1e-4, kSamePlace = 0.03;
+/// Ends of one minimum: costs and, near the least cost, places equal to this.
+constexpr double kSameCost = 1e-3, kSamePlace = 0.03, kNearLeast = 1.01;
 
 struct Setting {
   FitProblem problem;
@@ -30,7 +30,7 @@ Setting setting_of(const std::string& name) {
 }
 
 MapAxis axis_of(const FreeParameter& p) {
-  return {"log_{10} " + gnuplot_text(p.name), std::log10(p.lo), std::log10(p.hi)};
+  return {"log_{10} " + gnuplot_text(p.name), std::log10(p.lo), std::log10(p.hi)};
 }
 
 struct End {
@@ -38,10 +38,12 @@ struct End {
   int minimum = -1;
 };
 
-bool same(const Setting& setting, const Solution& a, const Solution& b) {
+bool same(const Setting& setting, const Solution& a, const Solution& b, double least) {
+  if (std::abs(a.cost - b.cost) > kSameCost * std::min(a.cost, b.cost)) return false;
+  if (a.cost > kNearLeast * least) return true;
   for (const std::size_t i : {setting.first, setting.second})
     if (std::abs(a.x[i] - b.x[i]) > kSamePlace) return false;
-  return std::abs(a.cost - b.cost) <= kSameCost * std::min(a.cost, b.cost);
+  return true;
 }
 
 /// Numbers the minima by their cost; returns one end of each.
@@ -53,8 +55,9 @@ std::vector<Solution> numbered(const Setting& setting, std::vector<End>& ends) {
                    [&](auto a, auto b) { return ends[a].solution.cost < ends[b].solution.cost; });
   std::vector<Solution> minima;
   for (const std::size_t e : order) {
-    const auto known = std::find_if(minima.begin(), minima.end(),
-                                    [&](const Solution& m) { return same(setting, m, ends[e].solution); });
+    const auto known = std::find_if(minima.begin(), minima.end(), [&](const Solution& m) {
+      return same(setting, m, ends[e].solution, minima[0].cost);
+    });
     ends[e].minimum = int(known - minima.begin());
     if (known == minima.end()) minima.push_back(ends[e].solution);
   }
@@ -66,7 +69,15 @@ std::vector<Solution> numbered(const Setting& setting, std::vector<End>& ends) {
 BasinMap basin_map(const std::string& name, std::size_t columns, std::size_t rows) {
   const Setting setting = setting_of(name);
   const FitProblem& problem = setting.problem;
-  BasinMap map{name, axis_of(problem.free[setting.first]), axis_of(problem.free[setting.second]), columns, rows, {}, {},
+  BasinMap map{name,
+               problem.free[setting.first].name,
+               problem.free[setting.second].name,
+               axis_of(problem.free[setting.first]),
+               axis_of(problem.free[setting.second]),
+               columns,
+               rows,
+               {},
+               {},
                {}};
   const LaneFit all(problem, every_point(problem));
   const std::size_t cells = columns * rows;

@@ -36,14 +36,16 @@ struct RecoveryMap {
   std::vector<RecoveryCell> cells;  ///< row by row
 };
 /// torrance-sparrow (m), ggx (alpha), beckmann-kirchhoff (sigma_um at T = 5 um) on gold, kd 0.05, ks 0.9; five incidences. 3 %
-/// noise of ln f, to 80° by 5°, where these are not what is swept.
+/// noise of ln f, to 80° by 5°, where these are not what is swept. ggx is seen across the plane of incidence too: in it alone alpha_y
+/// and ks cannot be told apart.
 RecoveryMap recovery_map(const std::string& model, RecoverySweep sweep, std::size_t columns, std::size_t rows,
                          int repeats);
 
 /// Where the starts of a grid end.
 struct BasinMap {
   std::string model;
-  MapAxis x, y;  ///< decimal logarithms of the two parameters started from
+  std::string first, second;  ///< the two parameters started from
+  MapAxis x, y;               ///< their decimal logarithms
   std::size_t columns = 0, rows = 0;
   std::vector<int> plain,
       improved;  ///< minimum reached (0: the best), -1: not converged; solver alone, and after the search on few points
@@ -53,7 +55,8 @@ struct BasinMap {
   };
   std::vector<Minimum> minima;  ///< by cost
 };
-/// beckmann-kirchhoff over (sigma, T); cook-torrance-1981-two-widths over its two widths; 2 % noise.
+/// beckmann-kirchhoff over (sigma, T); cook-torrance-1981-two-widths over its two widths; 2 % noise. Ends whose residual is not
+/// near the least are one minimum when the residual is the same: plateaus have no place of their own.
 BasinMap basin_map(const std::string& model, std::size_t columns, std::size_t rows);
 
 /// A parameter of a fit that was misled.
@@ -69,6 +72,7 @@ struct Misled {
   std::vector<MisledParameter> parameters;
   std::vector<std::string> warnings;  ///< of the fit, without those that a sound scan of this surface draws as well
   bool wrong() const;                 ///< a parameter lies outside its interval
+  bool explained() const;             ///< the fit follows the scan to its noise
   bool noticed() const { return !warnings.empty() || !result.converged; }
 };
 std::vector<Misled> failure_atlas();

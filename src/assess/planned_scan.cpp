@@ -23,10 +23,15 @@ Measurement planned_scan(const ScanPlan& plan) {
   Measurement scan;
   scan.id = "synthetic", scan.name = "synthetic scan", scan.wavelength_nm = 550;
   scan.incidences_deg = plan.incidences_deg;
-  for (std::size_t i = 0; i < plan.incidences_deg.size(); ++i)
-    for (double angle = -plan.largest_theta_o_deg + plan.offset_deg; angle <= plan.largest_theta_o_deg + 1e-9;
-         angle += plan.step_deg)
-      scan.points.push_back(pair_of(plan.incidences_deg[i], std::abs(angle), angle < 0 ? 0 : 180, 550, i));
+  const double end = plan.largest_theta_o_deg + 1e-9;
+  for (std::size_t i = 0; i < plan.incidences_deg.size(); ++i) {
+    const double theta_i = plan.incidences_deg[i];
+    for (double angle = -plan.largest_theta_o_deg + plan.offset_deg; angle <= end; angle += plan.step_deg)
+      scan.points.push_back(pair_of(theta_i, std::abs(angle), angle < 0 ? 0 : 180, 550, i));
+    if (!plan.across) continue;
+    for (double angle = plan.step_deg - plan.offset_deg; angle <= end; angle += plan.step_deg)
+      scan.points.push_back(pair_of(theta_i, angle, 90, 550, i));
+  }
   return scan;
 }
 

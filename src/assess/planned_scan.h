@@ -9,12 +9,13 @@
 
 namespace gonio {
 
-/// Where a scan looks, in the plane of incidence; degrees.
+/// Where a scan looks, in the plane of incidence and, if wanted, across it (phi = 90°); degrees.
 struct ScanPlan {
   std::vector<double> incidences_deg{0, 15, 30, 45, 60};
   double largest_theta_o_deg = 80;
   double step_deg = 5;
   double offset_deg = 0;  ///< of the first angle, so that the mirror directions need not be on the grid
+  bool across = false;    ///< anisotropic lobes show both their widths only so
 };
 /// The points of a plan at 550 nm, all of value 1.
 Measurement planned_scan(const ScanPlan& plan);
