@@ -30,7 +30,7 @@ Setting setting_of(const std::string& name) {
 }
 
 MapAxis axis_of(const FreeParameter& p) {
-  return {"log_{10} " + gnuplot_text(p.name), std::log10(p.lo), std::log10(p.hi)};
+  return {"log₁₀ " + gnuplot_text(p.name), std::log10(p.lo), std::log10(p.hi)};
 }
 
 struct End {

@@ -19,14 +19,14 @@ std::vector<double> truth_at(ModelId id, double roughness) {
 }
 
 MapAxis roughness_axis(ModelId id) {
-  if (id == ModelId::torrance_sparrow) return {"log_{10} slope rms m", -2, 0};
-  if (id == ModelId::ggx) return {"log_{10} alpha", -2, 0};
-  return {"log_{10} sigma in um, T = 5 um", -2, 0};
+  if (id == ModelId::torrance_sparrow) return {"log₁₀ slope rms m", -2, 0};
+  if (id == ModelId::ggx) return {"log₁₀ alpha", -2, 0};
+  return {"log₁₀ sigma in um, T = 5 um", -2, 0};
 }
 
 MapAxis swept_axis(RecoverySweep sweep) {
-  if (sweep == RecoverySweep::noise) return {"log_{10} noise of ln f", -3, 0};
-  if (sweep == RecoverySweep::step) return {"log_{10} step in degrees", -0.3, 1.2};
+  if (sweep == RecoverySweep::noise) return {"log₁₀ noise of ln f", -3, 0};
+  if (sweep == RecoverySweep::step) return {"log₁₀ step in degrees", -0.3, 1.2};
   return {"largest theta_o, degrees", 10, 85, false};
 }
 

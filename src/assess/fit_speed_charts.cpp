@@ -207,7 +207,7 @@ every start.
 ## Every model
 
 20,000 samples of torrance-sparrow fitted with every model but the mirror, 16 starts, one thread. Starts at the best minimum:
-of those on the 3,000 samples that decide.
+of those on the 3,000 samples that decide. The time of all is nearly that of the one with the most parameters.
 
 )" + models_table(every) +
          "\nEvery row: bars.csv, metrics.csv, tolerance.csv, starts.csv (the error column holds the worst excess of "

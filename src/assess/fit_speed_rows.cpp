@@ -94,7 +94,7 @@ std::vector<FitSpeedRow> tolerance_rows(const std::string& name) {
   std::vector<FitSpeedRow> rows;
   for (const Derivatives derivatives : kDerivatives)
     for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12})
-      rows.push_back(timed_fit("500 x 4, two widths", samples, 1, 1, derivatives, tolerance,
+      rows.push_back(timed_fit("500 x 4 two widths", samples, 1, 1, derivatives, tolerance,
                                derivatives == Derivatives::lanes ? 7 : 1));
   return rows;
 }
@@ -105,7 +105,7 @@ std::vector<FitSpeedRow> start_rows(const std::string& name, bool search) {
   const double least = solve_starts(samples.problem, 128, Derivatives::lanes, kSearch, 4000).best.cost;
   std::vector<FitSpeedRow> rows;
   for (const int starts : {1, 2, 4, 8, 16, 32}) {
-    FitSpeedRow row{search ? "500 x 1, searched" : "500 x 1, solver alone", name};
+    FitSpeedRow row{search ? "500 x 1 searched" : "500 x 1 solver alone", name};
     row.starts = starts, row.samples = samples.problem.points.size();
     double worst = 0;
     row.ms = INFINITY;

@@ -27,13 +27,13 @@ struct Panel {
 
 std::vector<Panel> panels() {
   return {
-      {"log_{10} of the worst error, decades (outlined: above 10 %)",
+      {"log₁₀ of the worst error, decades (outlined: above 10 %)",
        "set palette defined (-4 '#f7fbff', -2.5 '#9ecae1', -1.39 '#4292c6', -1.37 '#fee391', -0.5 '#fe9929', 0.5 "
        "'#7f2704')\nset cbrange [-4:0.5]\n",
        [](const RecoveryCell& c) { return std::log10(std::max(c.decades, 1e-4)); },
        [](const RecoveryCell& c) { return !c.recovered(); }},
       {"parameters inside their 95 % interval (outlined: below 0.8)",
-       "set palette defined (0 '#7f2704', 0.6 '#fe9929', 0.799 '#fee391', 0.801 '#9ecae1', 1 '#4292c6')\nset cbrange "
+       "set palette defined (0 '#7f2704', 0.6 '#fe9929', 0.79 '#fee391', 0.795 '#9ecae1', 1 '#4292c6')\nset cbrange "
        "[0:1]\n",
        [](const RecoveryCell& c) { return c.share_inside; },
        [](const RecoveryCell& c) { return c.share_inside < kFailedShare; }},
@@ -130,13 +130,14 @@ std::string csv_of(const std::vector<RecoveryMap>& maps) {
 
 std::string basin_text(const BasinMap& map) {
   std::string text = fmt::format(
-      "![basins of {0}](basins-{0}.svg)\n\n| minimum | rms of residuals | log10 {1} | log10 {2} | starts of the solver "
+      "![basins of {0}](basins-{0}.svg)\n\n| minimum | rms of residuals | log10 {1} | log10 {2} | share of starts, "
+      "solver "
       "alone | after the search |\n|---|---|---|---|---|---|\n",
       map.model, map.first, map.second);
   for (std::size_t m = 0; m < std::min<std::size_t>(map.minima.size(), kMinimumColours.size() - 1); ++m) {
     const BasinMap::Minimum& at = map.minima[m];
-    text += fmt::format("| {} | {:.4g} | {:.3f} | {:.3f} | {:.1f} % | {:.1f} % |\n", m + 1, at.rms, at.x, at.y,
-                        100.0 * at.plain / double(map.plain.size()), 100.0 * at.improved / double(map.plain.size()));
+    text += fmt::format("| {} | {:.4g} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", m + 1, at.rms, at.x, at.y,
+                        at.plain / double(map.plain.size()), at.improved / double(map.plain.size()));
   }
   return text + "\n";
 }
@@ -178,11 +179,10 @@ std::string atlas_entry(const Misled& m) {
                         p.lo95, p.hi95, 100 * (p.value / p.truth - 1), p.outside() ? "**no**" : "yes");
   text += fmt::format("\nrms_log10 of the fit {:.2g}. ", m.result.all.rms_log10);
   if (m.warnings.empty())
-    text += !m.wrong() ? "gonio says nothing, and the intervals hold.\n\n"
-            : m.explained()
-                ? "gonio says nothing: **not noticed**. The model follows the scan to its noise: nothing in "
-                  "these values shows the flaw.\n\n"
-                : "gonio says nothing: **not noticed**.\n\n";
+    text += !m.wrong()      ? "gonio says nothing, and the intervals hold.\n\n"
+            : m.explained() ? "gonio says nothing: **not noticed**. The model follows the scan to its noise: the "
+                              "residuals show nothing.\n\n"
+                            : "gonio says nothing: **not noticed**.\n\n";
   else
     text += "gonio says:\n\n";
   for (const std::string& warning : m.warnings) text += "> " + warning + "\n>\n";

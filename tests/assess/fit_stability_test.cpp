@@ -64,6 +64,11 @@ TEST_CASE("Basins: the search brings nearly every start to the best minimum", "[
   }
 }
 
+TEST_CASE("Recovery: ggx seen in the plane of incidence and across it gives back both widths", "[assess][fit]") {
+  for (const RecoveryCell& cell : recovery_map("ggx", RecoverySweep::step, 2, 2, 1).cells)
+    if (cell.x < -1 && cell.y < 0) CHECK(cell.recovered());
+}
+
 TEST_CASE("Atlas: each flaw misleads the parameter it must, and silence is called silence", "[assess][fit]") {
   const std::vector<Misled> atlas = failure_atlas();
   CHECK(atlas.size() >= 5);
@@ -74,6 +79,10 @@ TEST_CASE("Atlas: each flaw misleads the parameter it must, and silence is calle
   }
   CHECK(outside(entry(atlas, "aperture"), "m"));  // wider than the surface's lobe
   CHECK(entry(atlas, "aperture").result.value("m") > 0.02);
+  CHECK(outside(entry(atlas, "narrow-hit"), "ks"));    // only ks/m² is seen
+  CHECK_FALSE(entry(atlas, "stray-light").noticed());  // no fit could: it is a diffuse part
+  CHECK(entry(atlas, "stray-light").explained());
+  CHECK_FALSE(entry(atlas, "wrong-material").noticed());
   CHECK(outside(entry(atlas, "saturated"), "m"));
   CHECK(outside(entry(atlas, "stray-light"), "kd"));
   CHECK(entry(atlas, "stray-light").result.value("kd") == Approx(0.01 + kPi<double> * 0.02).epsilon(0.1));
