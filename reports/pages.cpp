@@ -9,7 +9,6 @@
 #include <set>
 
 #include "assess/brdf_stability.h"
-#include "assess/fit_stability.h"
 #include "assess/interpolation_charts.h"
 #include "assess/kramers_kronig_charts.h"
 #include "assess/merl_tables_page.h"
@@ -105,8 +104,6 @@ const std::vector<PublishedPage>& published_pages() {
       {"brdf-stability",
        "where reflection models fail: published forms beside ours, energy above 1, validity of Kirchhoff's theory",
        [](const fs::path&, const fs::path& folder) { write_brdf_stability(folder, true); }},
-      {"fit-stability", "where a fit can be trusted: what is recovered, which starts end where, scans that mislead",
-       [](const fs::path&, const fs::path& folder) { write_fit_stability(folder, [](const std::string&) {}, true); }},
       {"interpolation", "what each interpolation variant loses on the database; the default of each class of data",
        [](const fs::path&, const fs::path& folder) { write_interpolation_errors(folder); }},
       {"kramers-kronig", "n and k from reflectance on cut bands, against metals whose n and k are known",

@@ -69,30 +69,30 @@ std::string panels_chart(const std::vector<FitSpeedRow>& rows, const std::vector
   return gnuplot_svg(script + "unset multiplot\n", 420 * static_cast<int>(names.size()), 520);
 }
 
+/// A panel a model: which share of the fits misses the least residual, against their time.
 std::string starts_chart(const std::vector<FitSpeedRow>& rows, const std::vector<std::string>& names) {
-  constexpr std::array kColours{"#1b9e77", "#d95f02", "#7570b3"};
-  std::string data, plot;
-  for (std::size_t n = 0; n < 2 * names.size(); ++n) {
-    const bool searched = n < names.size();
-    const std::string& name = names[n % names.size()];
-    data += fmt::format("$s{} << EOD\n", n);
-    for (const FitSpeedRow& r : rows)
-      if (r.model == name && r.size.ends_with("searched") == searched)
-        data += fmt::format("{:.4g} {:.3f} {}\n", r.ms, r.missed, r.starts);
-    data += "EOD\n";
-    plot += fmt::format(
-        "{0}$s{1} using 1:2 with linespoints pt {4} dt {5} lw 1.5 lc rgb '{2}' title '{3}', $s{1} using 1:2:3 with "
-        "labels "
-        "left offset 0.5,0.6 font ',10' tc rgb '{2}' notitle",
-        n == 0 ? "" : ", ", n, kColours[n % names.size()], gnuplot_text(name + (searched ? "" : ", solver alone")),
-        searched ? 7 : 6, searched ? 1 : 2);
+  std::string script = fmt::format(
+      "set multiplot layout 1,{}\nset logscale x\nset grid lc rgb '#dddddd'\nset key top right samplen 2 font "
+      "',11'\nset xlabel 'ms a fit, one thread (numbers: starts)'\nset ylabel 'share of fits that miss the least "
+      "residual'\nset yrange [-0.06:0.6]\nset offsets graph 0.1, graph 0.1, 0, 0\n",
+      names.size());
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    for (const bool searched : {true, false}) {
+      script += fmt::format("${}{} << EOD\n", searched ? "s" : "a", n);
+      for (const FitSpeedRow& r : rows)
+        if (r.model == names[n] && r.size.ends_with("searched") == searched)
+          script += fmt::format("{:.4g} {:.3f} {}\n", r.ms, r.missed, r.starts);
+      script += "EOD\n";
+    }
+    script += fmt::format(
+        "set title '{1}'\nplot $a{0} using 1:2 with linespoints pt 6 dt 2 lw 1.5 lc rgb '#d95f02' title 'solver "
+        "alone', "
+        "$a{0} using 1:2:3 with labels center offset 0,-0.9 font ',10' tc rgb '#d95f02' notitle, $s{0} using 1:2 with "
+        "linespoints pt 7 lw 1.5 lc rgb '#1b9e77' title 'with the search', $s{0} using 1:2:3 with labels center offset "
+        "0,0.9 font ',10' tc rgb '#1b9e77' notitle\n",
+        n, gnuplot_text(names[n]));
   }
-  return gnuplot_svg(data +
-                         "set logscale x\nset grid lc rgb '#dddddd'\nset key inside right top "
-                         "vertical samplen 2 font ',11'\nset xlabel 'ms a fit, one thread (numbers: starts)'\nset "
-                         "ylabel 'share of fits that miss the least residual'\nset yrange [-0.03:0.6]\nplot " +
-                         plot + "\n",
-                     1000, 440);
+  return gnuplot_svg(script + "unset multiplot\n", 1260, 420);
 }
 
 std::string models_table(std::vector<FitSpeedRow> rows) {
@@ -114,14 +114,14 @@ std::string bars_chart(const std::vector<FitBar>& bars) {
   }
   return gnuplot_svg(
       data +
-          fmt::format("EOD\nset logscale x\nset grid lc rgb '#dddddd'\nset key below horizontal samplen "
+          fmt::format("EOD\nset logscale x\nset grid lc rgb '#dddddd'\nset key below vertical maxrows 2 samplen "
                       "1\nset ytics ({})\nset yrange [0.4:{}.6]\nset xlabel 'ms'\nplot $m using 4:1 with points pt 2 "
                       "ps 1.6 lw 2 lc rgb '#cc0000' title 'bar', $m using 2:1 with points pt 7 ps 1.2 lc rgb "
                       "'#1b9e77' title '1 thread', $m using 3:1 with points pt 6 ps 1.2 lw 2 lc rgb '#1b9e77' title "
                       "'2 threads', $m using 6:1 with points pt 4 ps 1.2 lc rgb '#7570b3' title 'whole gonio fit, "
                       "1 thread', $m using 5:1 with points pt 9 ps 1.3 lc rgb '#d95f02' title 'peer'\n",
                       tics, bars.size()),
-      1050, 380);
+      1050, 460);
 }
 
 std::string bars_csv(const std::vector<FitBar>& bars) {
