@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "assess/brdf_speed_charts.h"
+#include "assess/fit_speed.h"
 #include "assess/interpolation_charts.h"
 #include "assess/wavelength_charts.h"
 #include "base/error.h"
@@ -23,8 +24,11 @@ void assess_speed(const AssessArguments& arguments) {
     search_wavelengths(out, arguments.thorough, [](const std::string& line) { std::cerr << line << '\n'; });
   } else if (arguments.what == "brdf") {
     write_brdf_speed(out, [](const std::string& line) { std::cerr << line << '\n'; });
+  } else if (arguments.what == "fit") {
+    write_fit_speed(out, [](const std::string& line) { std::cerr << line << '\n'; });
   } else {
-    throw input_error("gonio assess speed: no chart {}; expected brdf, interpolation or wavelengths", arguments.what);
+    throw input_error("gonio assess speed: no chart {}; expected brdf, fit, interpolation or wavelengths",
+                      arguments.what);
   }
   std::cout << out << '\n';
 }
@@ -40,13 +44,15 @@ void add_assess(CLI::App& app, Common& common) {
       "interpolation: what each variant loses on the database (every second point left out) and costs a lookup; "
       "wavelengths: nodes against worst Delta E_2000 for scenes of many products; brdf: every model and variant, ns an "
       "evaluation "
-      "against its error in 50 digits and on a lit sphere");
+      "against its error in 50 digits and on a lit sphere; fit: what a fit costs and how near the truth it comes, "
+      "beside "
+      "Ceres");
   speed->footer(
       "Example: gonio assess speed brdf --out out/brdf-speed\n         gonio assess speed wavelengths "
       "--thorough --out out/wavelengths");
   add_common(*speed, common);
   auto arguments = std::make_shared<AssessArguments>();
-  speed->add_option("what", arguments->what, "brdf, interpolation or wavelengths")->required();
+  speed->add_option("what", arguments->what, "brdf, fit, interpolation or wavelengths")->required();
   speed->add_option("-o,--out", arguments->out, "Folder for CSV tables, SVG plots and README.md (out/assess/WHAT)");
   speed->add_flag("--thorough", arguments->thorough, "Wavelengths: the long search too (a quarter of an hour)");
   speed->callback([arguments] { assess_speed(*arguments); });

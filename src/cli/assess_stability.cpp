@@ -1,7 +1,7 @@
 #include <iostream>
 #include <memory>
 
-#include "assess/brdf_stability.h"
+#include "assess/fit_stability.h"
 #include "assess/kramers_kronig_charts.h"
 #include "base/error.h"
 #include "cli/commands.h"
@@ -13,21 +13,23 @@ void add_assess_stability(CLI::App& assess, Common& common) {
       "stability",
       "brdf: where reflection models fail, published forms beside ours, worst points, energy, validity; "
       "kramers-kronig: n, k from reflectance on cut bands, against metals whose n, k are known, and how wide an "
-      "interval is honest");
+      "interval is honest; fit: what is recovered of known surfaces, which starts end where, scans that mislead");
   command->footer("Example: gonio assess stability brdf --out out/brdf-stability");
   add_common(*command, common);
   struct Arguments {
     std::string what, out;
   };
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("what", arguments->what, "brdf or kramers-kronig")->required();
+  command->add_option("what", arguments->what, "brdf, fit or kramers-kronig")->required();
   command->add_option("-o,--out", arguments->out, "Folder for CSV tables, SVG plots and README.md (out/assess/WHAT)");
   command->callback([arguments] {
-    if (arguments->what != "kramers-kronig" && arguments->what != "brdf")
-      throw input_error("gonio assess stability: no map {}; expected brdf or kramers-kronig", arguments->what);
+    if (arguments->what != "kramers-kronig" && arguments->what != "brdf" && arguments->what != "fit")
+      throw input_error("gonio assess stability: no map {}; expected brdf, fit or kramers-kronig", arguments->what);
     const std::string out = arguments->out.empty() ? "out/assess/" + arguments->what : arguments->out;
     if (arguments->what == "brdf")
       write_brdf_stability(out);
+    else if (arguments->what == "fit")
+      write_fit_stability(out, [](const std::string& line) { std::cerr << line << '\n'; });
     else
       write_kramers_kronig_charts(out);
     std::cout << out << '\n';
