@@ -179,6 +179,8 @@ The four models: lambert, torrance-sparrow, ggx, beckmann-kirchhoff (which four 
 
 ![bars](bars.svg)
 
+Orange triangles: the peer.
+
 ## Derivatives and metrics
 
 500 directions × 16 wavelengths, kd and ks shared, one start, one thread. Ceres has one residual block a point and DENSE_QR;
