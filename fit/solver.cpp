@@ -12,7 +12,7 @@
 namespace gonio {
 namespace {
 
-constexpr int kMostSteps = 300, kMostLinearSteps = 20;
+constexpr int kMostSteps = 200, kMostLinearSteps = 20;
 constexpr double kLongestStep = 2;      // of a logarithm
 constexpr double kSettledStep = 1e-15;  // of a logarithm, or of kd and ks as a share
 
