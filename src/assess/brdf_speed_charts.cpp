@@ -190,9 +190,10 @@ std::string page(const FacetedCosts& c, const std::vector<DiffractionCost>& diff
              "and errors carry over better.\n\n",
              DoubleLanes::arch_type::name()) +
          ratios_table(c, diffraction, rows) +
-         "\nThe diffraction series costs most where the index of its largest term is between 10 and 32 (term by term) "
-         "and where lanes of one batch fall on "
-         "both sides\nof the turn (both sums): diffraction.svg.\n\n![Variants of "
+         "\nThe diffraction series costs most where the index of its largest term is below 12 (float) or 26 (double): up to 30 or "
+         "64 terms; above, one\n"
+         "estimate and its correction. Lanes that need terms are put side by side before they are summed: diffraction.svg.\n\n"
+         "![Variants of "
          "torrance-sparrow](faceted.svg)\n\n![Variants of beckmann-kirchhoff](kirchhoff.svg)\n\n"
          "Variants that cut the series (10, 40 terms), its limits and the Gauss rule are right somewhere and wrong by "
          "any factor elsewhere: their largest error over "
