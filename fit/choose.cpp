@@ -55,7 +55,8 @@ Measurement thinned(const Measurement& scan) {
 constexpr std::size_t kSectors = 12;
 std::size_t scan_of(const ScanPoint& p) {
   const double turn = p.phi_deg() / 360 + 0.5 / kSectors;
-  return p.incidence * kSectors + std::min(kSectors - 1, static_cast<std::size_t>((turn - std::floor(turn)) * kSectors));
+  return p.incidence * kSectors +
+         std::min(kSectors - 1, static_cast<std::size_t>((turn - std::floor(turn)) * kSectors));
 }
 
 /// Adds the squared log10 errors of a fit at points it has not seen, scan by scan; those that a logarithm cannot judge are passed over.
@@ -70,8 +71,7 @@ void add_errors(const FitResult& fitted, const Measurement& points, std::vector<
         surfaces.find(nm) != surfaces.end() ? surfaces.find(nm) : surfaces.emplace(nm, material.surface(nm)).first;
     const double f = evaluate(brdf, directions_from_deg(p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.phi_i_deg),
                               surface->second, nm * 1e-3);
-    squares[scan_of(p)] +=
-        square(std::log10((f + fitted.floor_per_sr) / (p.f_per_sr + fitted.floor_per_sr)));
+    squares[scan_of(p)] += square(std::log10((f + fitted.floor_per_sr) / (p.f_per_sr + fitted.floor_per_sr)));
   }
 }
 
@@ -125,8 +125,8 @@ void compare(ModelChoice& choice) {
     c.worse = mean(excess), c.uncertain = standard_error(excess);
     c.told_apart = c.worse > std::max(std::min(c.uncertain, choice.best_uncertain), kNoMatter * mean(best));
   }
-  const auto enough =
-      std::find_if(choice.candidates.begin(), choice.candidates.end(), [](const Candidate& c) { return !c.told_apart; });
+  const auto enough = std::find_if(choice.candidates.begin(), choice.candidates.end(),
+                                   [](const Candidate& c) { return !c.told_apart; });
   choice.chosen = static_cast<std::size_t>(enough - choice.candidates.begin());
 }
 

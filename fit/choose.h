@@ -26,7 +26,7 @@ struct ModelChoice {
       candidates;  ///< in order of cost: fewer parameters first, then those without a series, then the list's order
   std::size_t best = 0, chosen = 0;  ///< least held-out error; the first that the data cannot tell from it
   int folds = 0;
-  double best_uncertain = 0;  ///< standard error of the best candidate's mean squared error, between scans
+  double best_uncertain = 0;     ///< standard error of the best candidate's mean squared error, between scans
   std::vector<int> scan_points;  ///< of each scan: the weights of the means
   std::string sentence;
 };

@@ -31,8 +31,9 @@ struct FitRequest {
   std::map<std::string, double> held;            ///< parameters held at a value
   std::vector<double> begin;                     ///< values of the model's parameters where one more start begins
   Loss loss = Loss::none;                        ///< what becomes of large residuals
-  double loss_width = 0;  ///< in the residuals' unit; 0: Huber's 1.345 or Cauchy's 2.385 times their spread in a first fit
-  bool profile_intervals = false;                ///< intervals of the profile likelihood (fit/profile_likelihood.h)
+  double loss_width =
+      0;  ///< in the residuals' unit; 0: Huber's 1.345 or Cauchy's 2.385 times their spread in a first fit
+  bool profile_intervals = false;  ///< intervals of the profile likelihood (fit/profile_likelihood.h)
   std::function<void(int done, int count)> progress;  ///< called from any thread, one call at a time
 };
 

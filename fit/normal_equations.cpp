@@ -13,7 +13,7 @@ namespace gonio {
 namespace {
 
 constexpr std::size_t kStretch = 128;  // batches
-constexpr std::size_t kMost = 16;      // columns
+constexpr std::size_t kMost = kMostColumns;
 using Triangle = std::array<double, kMost*(kMost + 1) / 2 + 1>;
 
 /// What one block of batches adds: the triangle of the Gram matrix row by row, the cost last.
@@ -137,25 +137,26 @@ bool NormalEquations::evaluate(bool new_roughness) {
   std::array<const DoubleLanes*, kMost> slope{};
   for (std::size_t j = 0; j < varied_; ++j) slope[j] = columns_.slope[j].data();
 
-  std::vector<Triangle> parts(stretches_.size());
+  parts_.resize(stretches_.size());
   each_stretch([&](std::size_t i) {
     const Stretch& stretch = stretches_[i];
     const auto& [kd, ks] = linear[fit_->block_of(fit_->points_.groups[stretch.group])];
     add(problem.metric, problem.loss, columns, fit_->points_, columns_.value.data(), slope.data(), kd, ks,
-        fit_->diffuse_[stretch.group], problem.floor_per_sr, problem.loss_width, stretch.from, stretch.to, parts[i]);
+        fit_->diffuse_[stretch.group], problem.floor_per_sr, problem.loss_width, stretch.from, stretch.to, parts_[i]);
   });
 
-  gram.assign(linear.size(), Eigen::MatrixXd::Zero(Eigen::Index(columns), Eigen::Index(columns)));
+  gram.assign(linear.size(), GramMatrix::Zero(Eigen::Index(columns), Eigen::Index(columns)));
   cost = 0;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    Eigen::MatrixXd& sum = gram[fit_->block_of(fit_->points_.groups[stretches_[p].group])];
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    GramMatrix& sum = gram[fit_->block_of(fit_->points_.groups[stretches_[p].group])];
     for (Eigen::Index i = 0, at = 0; i < Eigen::Index(columns); ++i)
-      for (Eigen::Index j = 0; j <= i; ++j, ++at) sum(i, j) += parts[p][std::size_t(at)];
-    cost += parts[p][entries];
+      for (Eigen::Index j = 0; j <= i; ++j, ++at) sum(i, j) += parts_[p][std::size_t(at)];
+    cost += parts_[p][entries];
   }
   bool finite = std::isfinite(cost);
-  for (Eigen::MatrixXd& sum : gram) {
-    sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose().eval();
+  for (GramMatrix& sum : gram) {
+    for (Eigen::Index i = 0; i < sum.cols(); ++i)
+      for (Eigen::Index j = 0; j < i; ++j) sum(j, i) = sum(i, j);
     finite = finite && sum.allFinite();
   }
   return finite;

@@ -3,6 +3,10 @@
 
 namespace gonio {
 
+inline constexpr int kMostColumns = 16;
+/// Of few columns, without memory of its own.
+using GramMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostColumns, kMostColumns>;
+
 /// The sums over all points at one place: for each block of kd and ks the Gram matrix of the columns [roughness …, kd, ks, residual],
 /// weighted by the loss.
 class NormalEquations {
@@ -19,7 +23,7 @@ class NormalEquations {
   std::vector<Eigen::Matrix3d> linear_guess();
 
   double cost = 0;
-  std::vector<Eigen::MatrixXd> gram;
+  std::vector<GramMatrix> gram;
   const LobeColumns& columns() const { return columns_; }
 
  private:
@@ -30,6 +34,8 @@ class NormalEquations {
     std::size_t group, from, to;
   };
   std::vector<Stretch> stretches_;  ///< blocks of batches
+  /// The triangle of each, row by row, its cost after it.
+  std::vector<std::array<double, kMostColumns*(kMostColumns + 1) / 2 + 1>> parts_;
 
   template <class Sums>
   void each_stretch(Sums&& sums) const;

@@ -53,11 +53,12 @@ void check_box(const PublishedFit& fit, const std::string& file, int line) {
   const auto& parameters = fit.spec.info().parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i)  // scales are whatever the fit made of them
     if (!parameters[i].linear && !(fit.values[i] >= parameters[i].lo && fit.values[i] <= parameters[i].hi))
-      throw input_error("{}:{}: {} is {}; expected {} to {}", file, line, parameters[i].name, fit.values[i], parameters[i].lo,
-                        parameters[i].hi);
+      throw input_error("{}:{}: {} is {}; expected {} to {}", file, line, parameters[i].name, fit.values[i],
+                        parameters[i].lo, parameters[i].hi);
 }
 
-PublishedFit fit_of(const PublishedTable& table, const ModelSpec& spec, Cells cells, const std::string& file, int line) {
+PublishedFit fit_of(const PublishedTable& table, const ModelSpec& spec, Cells cells, const std::string& file,
+                    int line) {
   PublishedFit fit;
   fit.spec = spec;
   to_our_parameters(cells, table, fit);
@@ -133,8 +134,9 @@ PublishedFit published_fit(std::string_view path) {
   if (parts.size() != 3) throw input_error("published:{}: no such fit; expected published:TABLE/MATERIAL/r|g|b", path);
   for (const PublishedFit& fit : read_published(published_table(parts[0])))
     if (fit.material == parts[1] && fit.channel == parts[2]) return fit;
-  throw input_error("published:{}: no such row; expected a material of the table (gonio models published:{}) and r, g or b",
-                    path, parts[0]);
+  throw input_error(
+      "published:{}: no such row; expected a material of the table (gonio models published:{}) and r, g or b", path,
+      parts[0]);
 }
 
 }  // namespace gonio

@@ -1,6 +1,7 @@
 #include "fit/solver.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,63 +29,66 @@ struct Step {
   double predicted = 0;  ///< decrease of the cost in the linear model
 };
 
-/// Rows and columns `at` of a matrix.
-Eigen::MatrixXd part(const Eigen::MatrixXd& all, const std::vector<Eigen::Index>& rows,
-                     const std::vector<Eigen::Index>& columns) {
-  return all(rows, columns);
-}
-
-/// The damped Gauss-Newton step, the blocks of kd and ks eliminated one after the other.
-Step damped_step(const std::vector<Eigen::MatrixXd>& gram, const Active& active, double damping) {
+/// The damped Gauss-Newton step, the blocks of kd and ks eliminated one after the other. Small matrices of fixed room: nothing is allocated
+/// a block, of which a spectrum has many.
+Step damped_step(const std::vector<GramMatrix>& gram, const Active& active, double damping) {
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostColumns, kMostColumns>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostColumns, 1>;
+  using Cross = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, kMostColumns, 2>;
   const Eigen::Index columns = gram[0].cols(), varied = columns - 3, residual = columns - 1;
   const auto& moving = active.roughness;
   const auto count = Eigen::Index(moving.size());
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-  for (const Eigen::MatrixXd& block : gram) {
-    normal += part(block, moving, moving);
-    right -= part(block, moving, {residual});
-  }
-  const double largest = count > 0 ? normal.diagonal().maxCoeff() : 0;
-  const Eigen::VectorXd diagonal = normal.diagonal().cwiseMax(1e-18 * largest).cwiseMax(1e-300);
-  const Eigen::MatrixXd undamped = normal;
-  const Eigen::VectorXd gradient = -right;
-  normal.diagonal() += damping * diagonal;
+  const auto place = [&](Eigen::Index i) { return moving[std::size_t(i)]; };
 
-  struct Block {
-    std::vector<Eigen::Index> places;
-    Eigen::LDLT<Eigen::MatrixXd> factor;
-    Eigen::MatrixXd cross, square;
-    Eigen::VectorXd gradient;
-  };
-  std::vector<Block> blocks;
-  for (std::size_t b = 0; b < gram.size(); ++b) {
-    Block block;
-    for (const Eigen::Index j : active.linear[b]) block.places.push_back(varied + j);
-    block.square = part(gram[b], block.places, block.places);
-    Eigen::MatrixXd damped = block.square;
-    for (Eigen::Index j = 0; j < damped.cols(); ++j) damped(j, j) *= 1 + damping + 1e-14;
-    block.factor.compute(damped);
-    block.cross = part(gram[b], moving, block.places);
-    block.gradient = part(gram[b], block.places, {residual});
-    if (!block.places.empty()) {
-      normal -= block.cross * block.factor.solve(block.cross.transpose());
-      right += block.cross * block.factor.solve(block.gradient);
+  Small undamped = Small::Zero(count, count);
+  Column gradient = Column::Zero(count);
+  for (const GramMatrix& block : gram)
+    for (Eigen::Index i = 0; i < count; ++i) {
+      gradient[i] += block(place(i), residual);
+      for (Eigen::Index j = 0; j < count; ++j) undamped(i, j) += block(place(i), place(j));
     }
-    blocks.push_back(std::move(block));
+  Small normal = undamped;
+  const double largest = count > 0 ? normal.diagonal().maxCoeff() : 0;
+  for (Eigen::Index i = 0; i < count; ++i) normal(i, i) += damping * std::max({normal(i, i), 1e-18 * largest, 1e-300});
+  Column right = -gradient;
+
+  // A part of kd or ks that may not move has the equation 1·change = 0.
+  struct Block {
+    Eigen::Matrix2d square, inverse;
+    Eigen::Vector2d gradient;
+    Cross cross;
+  };
+  std::vector<Block> blocks(gram.size());
+  for (std::size_t b = 0; b < gram.size(); ++b) {
+    Block& block = blocks[b];
+    block.square.setIdentity(), block.gradient.setZero(), block.cross.setZero(count, 2);
+    for (const Eigen::Index j : active.linear[b]) {
+      block.square(j, j) = gram[b](varied + j, varied + j);
+      block.gradient[j] = gram[b](varied + j, residual);
+      for (Eigen::Index i = 0; i < count; ++i) block.cross(i, j) = gram[b](place(i), varied + j);
+    }
+    if (active.linear[b].size() == 2) block.square(0, 1) = block.square(1, 0) = gram[b](varied, varied + 1);
+    Eigen::Matrix2d damped = block.square;
+    damped.diagonal() *= 1 + damping + 1e-14;
+    // Scaled to a unit diagonal first, as kd and ks differ by decades.
+    const Eigen::Vector2d scale = damped.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::Matrix2d unit = scale.asDiagonal() * damped * scale.asDiagonal();
+    block.inverse = scale.asDiagonal() * unit.inverse() * scale.asDiagonal();
+    if (count > 0) {
+      normal -= block.cross * block.inverse * block.cross.transpose();
+      right += block.cross * (block.inverse * block.gradient);
+    }
   }
 
   Step step;
-  const Eigen::VectorXd change = count > 0 ? Eigen::VectorXd(normal.ldlt().solve(right)) : Eigen::VectorXd(0);
+  Column change = Column::Zero(count);
+  if (count > 0) change = normal.ldlt().solve(right);
   step.roughness.assign(std::size_t(varied), 0.0);
-  for (Eigen::Index i = 0; i < count; ++i) step.roughness[std::size_t(moving[std::size_t(i)])] = change[i];
+  for (Eigen::Index i = 0; i < count; ++i) step.roughness[std::size_t(place(i))] = change[i];
   if (count > 0) step.predicted -= gradient.dot(change) + 0.5 * change.dot(undamped * change);
   for (const Block& block : blocks) {
-    step.linear.push_back({0, 0});
-    if (block.places.empty()) continue;
-    const Eigen::VectorXd linear = -block.factor.solve(block.gradient + block.cross.transpose() * change);
-    for (std::size_t j = 0; j < block.places.size(); ++j)
-      step.linear.back()[std::size_t(block.places[j] - varied)] = linear[Eigen::Index(j)];
+    const Eigen::Vector2d linear = -(block.inverse * (block.gradient + block.cross.transpose() * change));
+    step.linear.push_back({linear[0], linear[1]});
     step.predicted -= block.gradient.dot(linear) + 0.5 * linear.dot(block.square * linear);
     if (count > 0) step.predicted -= change.dot(block.cross * linear);
   }

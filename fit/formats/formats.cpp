@@ -58,11 +58,10 @@ std::span<const Format> formats() {
       Format{"merl", ".binary", "MERL BRDF database", is_merl, read_merl},
       Format{"rgl", ".bsdf", "RGL material database, tensor file (Dupuy & Jakob 2018)",
              [](std::string_view head) { return head.starts_with(std::string_view("tensor_file\0", 12)); }, read_rgl},
-      Format{"ddr", ".ddr", "Integra diffuse distribution, text",
-             [](std::string_view head) {
-               return head.find("TypeSym") != head.npos && head.find("TypeData") != head.npos;
-             },
-             read_ddr},
+      Format{
+          "ddr", ".ddr", "Integra diffuse distribution, text",
+          [](std::string_view head) { return head.find("TypeSym") != head.npos && head.find("TypeData") != head.npos; },
+          read_ddr},
       Format{"bsdf-xml", ".xml", "Radiance/LBNL BSDF, Klems matrix or tensor tree",
              [](std::string_view head) { return head.find("<WindowElement") != head.npos; }, read_bsdf_xml},
   };

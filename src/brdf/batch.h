@@ -23,8 +23,8 @@ inline constexpr int kLobesOwn = -1;  ///< no constant: the lobe's own choice, l
 /// Whole batches of one lobe, its choices constants of the loop: what the compiler makes one loop of.
 template <int kShadowing, bool kExact, bool kRetro, class Lanes, class L>
 GONIO_ONE_LOOP void evaluate_lanes(L lobe, const Lanes scale, const Lanes diffuse, const Interface<Lanes> surface,
-                                     const Lanes wavelength_um, const DirectionPairs<scalar_t<Lanes>> pairs,
-                                     std::size_t count, scalar_t<Lanes>* f_per_sr) {
+                                   const Lanes wavelength_um, const DirectionPairs<scalar_t<Lanes>> pairs,
+                                   std::size_t count, scalar_t<Lanes>* f_per_sr) {
   if constexpr (kShadowing != kLobesOwn) lobe.shadowing = static_cast<Shadowing>(kShadowing);
   if constexpr (kExact) lobe.form = FacetForm::exact, lobe.schlick_fresnel = false;
   for (std::size_t at = 0; at + Lanes::size <= count; at += Lanes::size) {
@@ -40,9 +40,10 @@ GONIO_ONE_LOOP void evaluate_lanes(L lobe, const Lanes scale, const Lanes diffus
 
 /// Batches of a lobe that is a diffraction series, a block at a time: its sums in loops of their own.
 template <class Lanes, class L>
-GONIO_ONE_LOOP void evaluate_series(const L lobe, const Lanes scale, const Lanes diffuse, const Interface<Lanes> surface,
-                                    const Lanes wavelength_um, const DirectionPairs<scalar_t<Lanes>> pairs,
-                                    std::size_t count, scalar_t<Lanes>* f_per_sr) {
+GONIO_ONE_LOOP void evaluate_series(const L lobe, const Lanes scale, const Lanes diffuse,
+                                    const Interface<Lanes> surface, const Lanes wavelength_um,
+                                    const DirectionPairs<scalar_t<Lanes>> pairs, std::size_t count,
+                                    scalar_t<Lanes>* f_per_sr) {
   using S = scalar_t<Lanes>;
   constexpr std::size_t kBlock = 16;
   const Lanes half = Lanes(S(std::ldexp(1.0, -kSeriesPower / 2)));

@@ -123,7 +123,8 @@ SeriesPeak<T> series_peak(const T& g, const T& b) {
   // Held: where l has ended, or g² is out of range, anything may come.
   const V x0 = g0 * grown, x2 = square(x0), inverse = one / (x2 * (one + w)),
           newton = smaller_of(V(multiply_add(V(-c0), x2, b0) * inverse), all(0.01)),
-          step = kFloat ? newton : V(newton * multiply_add(V(-newton), multiply_add(x2, inverse, one), one)),  // Halley's
+          step =
+              kFloat ? newton : V(newton * multiply_add(V(-newton), multiply_add(x2, inverse, one), one)),  // Halley's
       more = step * multiply_add(all(0.5), step, one);
   const V c = c0 + step, z = multiply_add(grown, more, z0), growth = one + z;
   const T peak_c = with_slope(q, c, V(all(0.5) / (square(growth) * multiply_add(all(2), c, one))));
@@ -280,9 +281,7 @@ GONIO_ONE_LOOP void poisson_lobe_sums(const std::array<V, N>& g, const std::arra
     if (!xsimd::all(low[i])) sum[i] = sum_by_bell(g[i], b[i], peak[i]);
   if (count == 0) return;
 
-  const auto fill = [&](std::array<S, (N + 1) * V::size>& all, S with) {
-    V(with).store_unaligned(all.data() + count);
-  };
+  const auto fill = [&](std::array<S, (N + 1) * V::size>& all, S with) { V(with).store_unaligned(all.data() + count); };
   fill(low_g, S(1)), fill(low_b, S(0)), fill(low_reach, S(0));
   for (std::size_t at = 0; at < count; at += V::size) {
     const auto load = [at](const auto& all) { return V::load_unaligned(all.data() + at); };

@@ -299,8 +299,9 @@ void add_fit(CLI::App& app, Common& common) {
       "Metrics: log compares ln(f + f0), linear f*cos_o, cuberoot (f*cos_o)^(1/3). Exit 1: a fit did not converge.");
   add_common(*command, common);
   auto a = std::make_shared<FitArguments>();
-  command->add_option("measurement", a->measurement,
-                      "Folder (scan.csv + measurement.yaml), CSV or foreign file (see `gonio measurements`)")
+  command
+      ->add_option("measurement", a->measurement,
+                   "Folder (scan.csv + measurement.yaml), CSV or foreign file (see `gonio measurements`)")
       ->required();
   command
       ->add_option(

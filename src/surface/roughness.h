@@ -40,10 +40,10 @@ struct Roughness {
   Estimate sigma_um, correlation_um, slope_rms, curvature_per_um, radius_um;
   double slope_at_step = 0;    ///< rms of the differences at the step, not extrapolated
   double step_dependence = 0;  ///< mean squared slope over 2Δ against over Δ; 1 for a differentiable surface
-  double gaussian_slope = 0;    ///< √2·sigma/T
+  double gaussian_slope = 0;   ///< √2·sigma/T
   double gaussian_curvature_per_um = 0;  ///< 2√3·sigma/T²
   double skewness = 0, excess_kurtosis = 0;
-  double gaussian_p = 1;        ///< chance of moments as far from a Gaussian's, heights correlated as found
+  double gaussian_p = 1;                ///< chance of moments as far from a Gaussian's, heights correlated as found
   std::vector<double> autocorrelation;  ///< C(j·step)/C(0), to about 3·T
   double autocorrelation_misfit = 0;    ///< rms difference from exp(-τ²/T²) over τ <= 2·T
   std::size_t stretches = 0;

@@ -74,9 +74,10 @@ TEST_CASE("The series in lanes against the 50-digit sum, on both sides of its tu
                  exact_f = oracle::kirchhoff_sum(double(gf), double(bf)).convert_to<double>();
     INFO("g " << g << " b " << b);
     if (exact > 1e-290)
-      worst_double =
-          std::max(worst_double,
-                   std::abs(value_of_series<DoubleLanes>({DoubleLanes(g), DoubleLanes(b), DoubleLanes(1.0)}).get(0) / exact - 1));
+      worst_double = std::max(
+          worst_double,
+          std::abs(value_of_series<DoubleLanes>({DoubleLanes(g), DoubleLanes(b), DoubleLanes(1.0)}).get(0) / exact -
+                   1));
     const double f = value_of_series<FloatLanes>({FloatLanes(gf), FloatLanes(bf), FloatLanes(1.0F)}).get(0),
                  error = std::abs(f / exact_f - 1);
     if (exact_f > 1e-6 * oracle::kirchhoff_sum(double(gf), 0).convert_to<double>())

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "catch.h"
 #include "base/files.h"
+#include "catch.h"
 #include "synthetic.h"
 
 using namespace gonio;
@@ -33,8 +33,11 @@ FitRequest quick() {
 }  // namespace
 
 TEST_CASE("the simplest model that left-out scans cannot tell from the best is chosen", "[fit][choose]") {
-  const std::vector<ModelSpec> specs = specs_of(
-      {{"lambert", false}, {"torrance-sparrow", false}, {"ggx", false}, {"oren-nayar", false}, {"lafortune-1997", false}});
+  const std::vector<ModelSpec> specs = specs_of({{"lambert", false},
+                                                 {"torrance-sparrow", false},
+                                                 {"ggx", false},
+                                                 {"oren-nayar", false},
+                                                 {"lafortune-1997", false}});
   FitRequest request = quick();
   request.material = "perfect";
   SECTION("a lobe where there is one") {
@@ -56,7 +59,8 @@ TEST_CASE("the simplest model that left-out scans cannot tell from the best is c
   }
 }
 
-TEST_CASE("measured materials: what is chosen predicts left-out scans better than Lambert and Ward's lobe", "[fit][choose][slow]") {
+TEST_CASE("measured materials: what is chosen predicts left-out scans better than Lambert and Ward's lobe",
+          "[fit][choose][slow]") {
   const std::vector<ModelSpec> specs = specs_of({{"lambert", false},
                                                  {"phong-1975", true},
                                                  {"whitted-1980", true},
@@ -65,7 +69,8 @@ TEST_CASE("measured materials: what is chosen predicts left-out scans better tha
                                                  {"ward-1992", false},
                                                  {"cook-torrance-1981-two-widths", false},
                                                  {"ashikhmin-shirley-2000", false}});
-  for (const char* name : {"aluminium-merl", "starlink-chassis-532nm", "ptfe-sintered-nist-532nm", "retro-tape-yellow"}) {
+  for (const char* name :
+       {"aluminium-merl", "starlink-chassis-532nm", "ptfe-sintered-nist-532nm", "retro-tape-yellow"}) {
     const Measurement scan = read_measurement(data_folder("measurements") / name);
     const ModelChoice choice = choose_model(scan, quick(), specs);
     const Candidate &chosen = choice.candidates[choice.chosen], &ward = candidate(choice, "ward-1992");
