@@ -235,8 +235,9 @@ std::vector<double> FitResult::values() const {
 }
 
 std::optional<double> FitResult::index() const {
-  const FittedParameter* p = find("n");
-  return p ? std::optional(p->value) : std::nullopt;
+  // After the model's own parameters, of which one may be called n, too (Phong's exponent).
+  const std::size_t own = model.info().parameters.size();
+  return parameters.size() > own ? std::optional(parameters[own].value) : std::nullopt;
 }
 
 FitResult fit(const Measurement& measurement, const FitRequest& request) {

@@ -53,6 +53,8 @@ struct FitReader {
         throw input_error("{}: {} is {}; expected {} to {}", file, name, value, info.lo, info.hi);
       material.values.push_back(value);
     }
+    const auto& own = material.model.info().parameters;
+    if (std::any_of(own.begin(), own.end(), [](const ParameterInfo& p) { return p.name == "n"; })) return;
     if (!given.contains("n")) return;
     material.n = number(at(given.at("n"), "value", "a number"), "n");
     if (!(*material.n > 0)) throw input_error("{}: n is {}; expected more than 0", file, *material.n);

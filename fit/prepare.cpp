@@ -142,6 +142,9 @@ std::vector<FreeParameter> free_parameters(const Measurement& scan, const FitReq
   if (request.free_n) {
     if (info.id == ModelId::lambert)
       throw input_error("n: lambert has no lobe; expected a model with Fresnel reflection");
+    if (std::any_of(info.parameters.begin(), info.parameters.end(), [](auto& p) { return p.name == "n"; }))
+      throw input_error("n: {} has an exponent of this name; expected a model without one to free the refractive index",
+                        info.name);
     free.push_back({FreeParameter::kIndex, "n", "1", 1.01, 3, false});
   }
   return free;

@@ -83,6 +83,18 @@ TEST_CASE("points in SIMD lanes are the points one by one", "[fit]") {
   }
 }
 
+TEST_CASE("an exponent called n is no refractive index", "[fit]") {
+  const Measurement scan = synthetic(empty_scan(), spec_of("phong-1975"), std::vector<double>{40, 0.1, 0.5},
+                                     perfect_interface<double>(), 0.02);
+  FitRequest request = request_of("phong-1975");
+  const FitResult result = fit(scan, request);
+  CHECK(result.value("n") == Approx(40).epsilon(0.1));
+  CHECK_FALSE(result.index().has_value());
+  CHECK_FALSE(parse_fit(to_json(result).dump(), "fit.json").n.has_value());
+  request.free_n = true;
+  CHECK(refusal(scan, request).find("exponent") != std::string::npos);
+}
+
 TEST_CASE("Lambert's fit is the mean of the logarithms, its error the textbook's", "[fit]") {
   const Measurement scan =
       synthetic(empty_scan(), spec_of("lambert"), std::vector<double>{0.5}, perfect_interface<double>(), 0.1);
