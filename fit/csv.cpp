@@ -8,24 +8,25 @@
 #include "base/error.h"
 
 namespace gonio {
-namespace {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   return text;
 }
 
-std::vector<std::string_view> cells_of(std::string_view line) {
+std::vector<std::string_view> split_at_commas(std::string_view line) {
   std::vector<std::string_view> cells;
   for (std::size_t at = 0;;) {
     const std::size_t comma = line.find(',', at);
-    cells.push_back(trimmed(line.substr(at, comma == line.npos ? line.npos : comma - at)));
+    cells.push_back(without_blanks(line.substr(at, comma == line.npos ? line.npos : comma - at)));
     if (comma == line.npos) return cells;
     at = comma + 1;
   }
 }
+
+namespace {
 
 void require_text(std::string_view text, const std::string& file) {
   const auto control = [](unsigned char c) { return (c < 32 && c != '\t' && c != '\n' && c != '\r') || c == 127; };
@@ -60,11 +61,11 @@ CsvTable read_csv(std::string_view text, const std::string& file) {
   int line_number = 0;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
+    const std::string_view line = without_blanks(text.substr(0, end));
     text.remove_prefix(end == text.npos ? text.size() : end + 1);
     ++line_number;
     if (line.empty() || line.front() == '#') continue;
-    std::vector<std::string_view> cells = cells_of(line);
+    std::vector<std::string_view> cells = split_at_commas(line);
     if (table.header.empty()) {
       table.header = std::move(cells);
       table.header_line = line_number;

@@ -17,6 +17,10 @@ struct CsvTable {
   std::vector<CsvRow> rows;
 };
 
+/// A text without blanks at its ends; the cells of a line, each so.
+std::string_view without_blanks(std::string_view text);
+std::vector<std::string_view> split_at_commas(std::string_view line);
+
 /// InputError for an empty file, one that is not text, a row with another number of cells, a column named twice.
 CsvTable read_csv(std::string_view text, const std::string& file);
 

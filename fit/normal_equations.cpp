@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/one_loop.h"
-#include "fit/metric_lanes.h"
+#include "fit/metric.h"
 
 namespace gonio {
 namespace {
@@ -29,7 +29,7 @@ GONIO_ONE_LOOP void add_block(const LanePoints& points, const DoubleLanes* value
   const DoubleLanes constant(kd * diffuse), scale(ks), floor(floor_per_sr), d(diffuse);
   for (std::size_t batch = from; batch < to; ++batch) {
     const DoubleLanes s = value[batch], f = multiply_add(scale, s, constant);
-    const Compared at = compared_in_lanes<kMetric>(f, points.weight[batch], floor);
+    const Compared<DoubleLanes> at = compared_at<kMetric>(f, points.weight[batch], floor);
     const DoubleLanes r = (at.value - points.compared[batch]) * points.confidence[batch];
     const Robust robust = robust_in_lanes<kLoss>(r, loss_width);
     cost += robust.cost;
@@ -74,9 +74,7 @@ void add_loss(Loss loss, Rest&&... rest) {
 
 template <class... Rest>
 void add(Metric metric, Rest&&... rest) {
-  if (metric == Metric::log) return add_loss<Metric::log>(rest...);
-  if (metric == Metric::linear) return add_loss<Metric::linear>(rest...);
-  add_loss<Metric::cuberoot>(rest...);
+  with_metric(metric, [&]<Metric kMetric>() { add_loss<kMetric>(rest...); });
 }
 
 /// The same of the linear problem near the data.
@@ -90,7 +88,7 @@ GONIO_ONE_LOOP void add_guess(const LanePoints& points, const DoubleLanes* value
     const DoubleLanes y = points.measured[batch];
     const DoubleLanes positive = larger_of(DoubleLanes(xsimd::abs(y)), DoubleLanes(1e-12));
     const DoubleLanes by_f =
-        compared_in_lanes<kMetric>(positive, points.weight[batch], floor).slope * points.confidence[batch];
+        compared_at<kMetric>(positive, points.weight[batch], floor).slope * points.confidence[batch];
     const std::array<DoubleLanes, 3> column{by_f * d, by_f * value[batch], by_f * y};
     for (std::size_t i = 0, at = 0; i < 3; ++i)
       for (std::size_t j = 0; j <= i; ++j, ++at) sum[at] = multiply_add(column[i], column[j], sum[at]);
@@ -167,16 +165,10 @@ std::vector<Eigen::Matrix3d> NormalEquations::linear_guess() {
   std::vector<std::array<double, 6>> parts(stretches_.size());
   each_stretch([&](std::size_t i) {
     const Stretch& stretch = stretches_[i];
-    const auto run = [&]<Metric kMetric>() {
+    with_metric(problem.metric, [&]<Metric kMetric>() {
       add_guess<kMetric>(fit_->points_, columns_.value.data(), fit_->diffuse_[stretch.group], problem.floor_per_sr,
                          stretch.from, stretch.to, parts[i]);
-    };
-    if (problem.metric == Metric::log)
-      run.template operator()<Metric::log>();
-    else if (problem.metric == Metric::linear)
-      run.template operator()<Metric::linear>();
-    else
-      run.template operator()<Metric::cuberoot>();
+    });
   });
   std::vector<Eigen::Matrix3d> sums(linear.size(), Eigen::Matrix3d::Zero());
   for (std::size_t p = 0; p < parts.size(); ++p) {

@@ -122,7 +122,7 @@ std::string in_plane_svg(const FitResult& result, bool logarithmic) {
   return gnuplot_svg(
       data + heading(result) + kFrame + range +
           fmt::format(
-              "set xlabel 'angle of reflection θ_o in the plane of incidence (degrees; positive: mirror side)'\n"
+              "set xlabel 'angle of reflection (θ_o) in the plane of incidence, degrees (positive: mirror side)'\n"
               "set ylabel '{}'\nset xrange [-90:90]\nset xtics 15\n",
               unit_of(result)) +
           points + lines + ", \\\n  NaN w l lw 1.8 lc rgb '#404040' t 'fitted'" +

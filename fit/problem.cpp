@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "fit/metric.h"
 
 namespace gonio {
 namespace {
@@ -49,29 +50,13 @@ std::vector<double> FitProblem::predict(std::span<const double> x, std::span<con
 }
 
 double FitProblem::compared(double f_per_sr, const FitPoint& point) const {
-  switch (metric) {
-    case Metric::log:
-      return std::log(f_per_sr + floor_per_sr);  // positive, which the choice of points ensures
-    case Metric::linear:
-      return f_per_sr * point.weight;
-    case Metric::cuberoot:
-      return std::cbrt(f_per_sr * point.weight);
-  }
-  return f_per_sr;
+  return with_metric(
+      metric, [&]<Metric kMetric>() { return compared_at<kMetric>(f_per_sr, point.weight, floor_per_sr).value; });
 }
 
 double FitProblem::compared_slope(double f_per_sr, const FitPoint& point) const {
-  switch (metric) {
-    case Metric::log:
-      return 1 / (f_per_sr + floor_per_sr);
-    case Metric::linear:
-      return point.weight;
-    case Metric::cuberoot: {
-      const double root = std::cbrt(f_per_sr * point.weight);
-      return point.weight / (3 * std::max(root * root, 1e-200));
-    }
-  }
-  return 0;
+  return with_metric(
+      metric, [&]<Metric kMetric>() { return compared_at<kMetric>(f_per_sr, point.weight, floor_per_sr).slope; });
 }
 
 std::vector<double> FitProblem::values_at(std::span<const double> x, std::size_t group) const {

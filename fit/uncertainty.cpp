@@ -6,6 +6,8 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <vector>
 
 #include "base/error.h"
 
@@ -14,6 +16,8 @@ namespace {
 
 constexpr double kAtBound = 1e-9;      // of the box's logarithmic width
 constexpr double kUndetermined = 1.0;  // standard error of a logarithm from which on a factor e is within the error
+constexpr double kOnePoint = 1.5;      // points an incidence up to which a parameter is not to be trusted
+constexpr std::size_t kSeries = 5;     // points an incidence from which on it is a series
 constexpr double kValley = 1e-3;       // share of the largest singular value below which a bound may end a valley
 constexpr double kSameDirection =
     0.02;  // how far from a ratio of small whole numbers a direction may be to be named so
@@ -146,6 +150,31 @@ void find_unseen(const FitProblem& problem, const Solution& solution, const Spec
   }
 }
 
+/// Parameters that one point an incidence speaks for: the number of points that carry a column there, (Σ j²)²/Σ j⁴, is 1; its mean, each
+/// incidence by its share of Σ j². A peak on one sample of a scan fits any width. Scans of few points an incidence (random
+/// directions) are not judged.
+void find_thin(const FitProblem& problem, const Eigen::MatrixXd& jacobian, Uncertainty& result) {
+  std::map<double, std::vector<Eigen::Index>> incidences;
+  for (std::size_t p = 0; p < problem.points.size(); ++p)
+    incidences[problem.points[p].directions.tan2_i].push_back(static_cast<Eigen::Index>(p));
+  if (problem.points.size() < kSeries * incidences.size()) return;
+  for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
+    double all = 0, weighted = 0;
+    for (const auto& [tan2_i, points] : incidences) {
+      double squares = 0, fourth = 0;
+      for (const Eigen::Index p : points) squares += square(jacobian(p, i)), fourth += square(square(jacobian(p, i)));
+      all += squares;
+      if (fourth > 0) weighted += squares * square(squares) / fourth;
+    }
+    const double carrying = all > 0 ? weighted / all : 0;
+    if (carrying > kOnePoint || !result.identifiable[static_cast<std::size_t>(i)]) continue;
+    result.warnings.push_back(fmt::format(
+        "{} rests on {:.2g} points an incidence: the scan is too coarse for so narrow a lobe, and neither the "
+        "value nor its interval is to be trusted",
+        problem.free[static_cast<std::size_t>(i)].name, carrying));
+  }
+}
+
 /// Covariance of the logarithms over the directions that are seen; those that are seen but lost in the noise are
 /// refused.
 Eigen::MatrixXd covariance_of(const FitProblem& problem, const Solution& solution, const Spectrum& varying,
@@ -179,6 +208,7 @@ Uncertainty uncertainty(const FitProblem& problem, const Solution& solution) {
   const double smallest = all.singular.minCoeff();
   result.condition = smallest > 0 ? all.singular[0] / smallest : std::numeric_limits<double>::infinity();
   find_unseen(problem, solution, all, result);
+  find_thin(problem, at.jacobian, result);
   const double freedom = static_cast<double>(problem.points.size()) - static_cast<double>(varying.places.size());
   if (!(freedom > 0) || varying.places.empty()) return result;
   result.t95 = boost::math::quantile(boost::math::students_t(freedom), 0.975);

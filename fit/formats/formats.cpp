@@ -74,12 +74,15 @@ const Format& format_named(std::string_view name) {
   throw input_error("{}: unknown format; expected one of {}", name, names());
 }
 
+const Format* format_of(const std::filesystem::path& path) {
+  return recognised(path.extension().string(), head_of(path));
+}
+
 Measurement read_any(const std::filesystem::path& path, const std::optional<std::string>& format) {
   std::error_code error;
   const bool ours = std::filesystem::is_directory(path, error) || path.extension() == ".csv";
   if (format ? *format == "csv" : ours) return read_measurement(path);
-  const std::string head = head_of(path);
-  const Format* known = format ? &format_named(*format) : recognised(path.extension().string(), head);
+  const Format* known = format ? &format_named(*format) : format_of(path);
   if (known == nullptr) return read_measurement(path);
   Measurement scan = known->read(read_file(path), path.string());
   scan.id = path.stem().string();

@@ -23,6 +23,9 @@ std::span<const Format> formats();
 /// InputError for an unknown name.
 const Format& format_named(std::string_view name);
 
+/// The format that a file looks like by its extension and first bytes, or by these alone; null for none.
+const Format* format_of(const std::filesystem::path& path);
+
 /// A measurement in any format: a folder or CSV of ours, or a foreign file, known by its first bytes and its extension (or `format`).
 Measurement read_any(const std::filesystem::path& path, const std::optional<std::string>& format = {});
 

@@ -13,26 +13,10 @@ namespace {
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 void require_printable(std::string_view text, const std::string& file, int line) {
   for (const unsigned char c : text)
     if ((c < 32 && c != '\t' && c != '\r') || c == 127)
       throw input_error("{}:{}: is not text (byte {}); expected a text file", file, line, int(c));
-}
-
-std::vector<std::string_view> split_at_commas(std::string_view text) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0;;) {
-    const std::size_t comma = text.find(',', at);
-    words.push_back(without_blanks(text.substr(at, comma == text.npos ? text.npos : comma - at)));
-    if (comma == text.npos) return words;
-    at = comma + 1;
-  }
 }
 
 std::vector<std::string_view> split_at_blanks(std::string_view text) {

@@ -15,9 +15,13 @@ namespace {
 struct Style {
   const char *path, *colour;
   int point;
+  bool named;  ///< variants are written beside the lanes' points; one number at a time they err alike
 };
-constexpr Style kStyles[] = {
-    {"float lanes", "#d95f02", 7}, {"double lanes", "#1b9e77", 5}, {"float", "#e6ab02", 6}, {"double", "#7570b3", 4}};
+constexpr Style kStyles[] = {{"float lanes", "#d95f02", 7, true},
+                             {"double lanes", "#1b9e77", 5, true},
+                             {"float", "#e6ab02", 6, false},
+                             {"double", "#7570b3", 4, false}};
+constexpr double kPoor = 1e-3;
 
 std::string csv_of(const std::vector<SpeedRow>& rows) {
   std::string csv =
@@ -43,15 +47,24 @@ std::string pareto_chart(const std::vector<SpeedRow>& all, ModelId id, const std
   data += "EOD\n";
   int block = 0;
   for (const Style& style : kStyles) {
-    data += fmt::format("$p{} << EOD\n", block);
-    for (const SpeedRow& r : rows)
-      if (r.path == style.path) data += fmt::format("{:.4g} {:.3e} \"{}\"\n", r.ns, shown(r.largest), r.spec.variant());
-    data += "EOD\n";
-    plot += fmt::format(
-        ", $p{0} using 1:2 with points pt {1} ps 1.1 lc rgb '{2}' title '{3}', $p{0} using 1:2:3 with labels left "
-        "offset 0.6,0.3 font ',10' "
-        "tc rgb '{2}' notitle",
-        block++, style.point, style.colour, style.path);
+    std::string points, good, poor;  // names of what is right, and, aslant, of what is wrong by a part or more
+    for (const SpeedRow& r : rows) {
+      if (r.path != style.path) continue;
+      const std::string row = fmt::format("{:.4g} {:.3e} \"{}\"\n", r.ns, shown(r.largest), r.spec.variant());
+      points += row;
+      (r.largest < kPoor ? good : poor) += row;
+    }
+    const std::string nothing = "NaN NaN \"\"\n";
+    data += fmt::format("$p{0} << EOD\n{1}EOD\n$g{0} << EOD\n{2}EOD\n$w{0} << EOD\n{3}EOD\n", block, points,
+                        good.empty() ? nothing : good, poor.empty() ? nothing : poor);
+    plot += fmt::format(", $p{} using 1:2 with points pt {} ps 1.1 lc rgb '{}' title '{}'", block, style.point,
+                        style.colour, style.path);
+    if (style.named)
+      plot += fmt::format(
+          ", $g{0} using 1:2:3 with labels left offset 0.6,0.3 font ',10' tc rgb '{1}' notitle, $w{0} using 1:2:3 with "
+          "labels left rotate by -50 offset 0.2,-0.7 font ',10' tc rgb '{1}' notitle",
+          block, style.colour);
+    ++block;
   }
   return gnuplot_svg(data + fmt::format("set title '{}'\nset logscale xy\nset format y '10^{{%T}}'\nset grid lc rgb "
                                         "'#dddddd'\nset key outside top center "
@@ -84,11 +97,12 @@ std::string models_chart(const std::vector<SpeedRow>& rows) {
                         block, style.point, style.colour, style.path);
     ++block;
   }
-  return gnuplot_svg(data + fmt::format("set logscale x\nset grid lc rgb '#dddddd'\nset key outside top center samplen 1 font ',12' "
-                                        "horizontal\nset ytics ({}) font ',11'\nset "
-                                        "yrange [0.3:{}.7]\nset xlabel 'ns an evaluation, one thread'\nplot {}\n",
-                                        tics, names.size(), plot),
-                     900, 140 + 22 * static_cast<int>(names.size()));
+  return gnuplot_svg(
+      data + fmt::format("set logscale x\nset grid lc rgb '#dddddd'\nset key outside top center samplen 1 font ',12' "
+                         "horizontal\nset ytics ({}) font ',11'\nset "
+                         "yrange [0.3:{}.7]\nset xlabel 'ns an evaluation, one thread'\nplot {}\n",
+                         tics, names.size(), plot),
+      900, 140 + 22 * static_cast<int>(names.size()));
 }
 
 std::string diffraction_chart(const std::vector<DiffractionCost>& costs, const FacetedCosts& c) {
@@ -190,9 +204,11 @@ std::string page(const FacetedCosts& c, const std::vector<DiffractionCost>& diff
              "and errors carry over better.\n\n",
              DoubleLanes::arch_type::name()) +
          ratios_table(c, diffraction, rows) +
-         "\nThe diffraction series costs most where the index of its largest term is below 12 (float) or 26 (double): up to 30 or "
+         "\nThe diffraction series costs most where the index of its largest term is below 12 (float) or 26 (double): "
+         "up to 30 or "
          "64 terms; above, one\n"
-         "estimate and its correction. Lanes that need terms are put side by side before they are summed: diffraction.svg.\n\n"
+         "estimate and its correction. Lanes that need terms are put side by side before they are summed: "
+         "diffraction.svg.\n\n"
          "![Variants of "
          "torrance-sparrow](faceted.svg)\n\n![Variants of beckmann-kirchhoff](kirchhoff.svg)\n\n"
          "Variants that cut the series (10, 40 terms), its limits and the Gauss rule are right somewhere and wrong by "

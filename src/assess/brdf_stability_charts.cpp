@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assess/brdf_stability.h"
+#include "assess/map_outline.h"
 #include "base/files.h"
 #include "fit/gnuplot.h"
 
@@ -11,23 +12,6 @@ namespace gonio {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Edges between the cells of a grid where `inside` changes, as gnuplot vectors; cells are centred on the values.
-std::string outline(std::size_t columns, std::size_t rows, const MapAxis& x, const MapAxis& y,
-                    const std::function<bool(std::size_t)>& inside) {
-  const double dx = (x.hi - x.lo) / double(columns - 1), dy = (y.hi - y.lo) / double(rows - 1);
-  std::string text;
-  const auto in = [&](long c, long r) {
-    return c >= 0 && r >= 0 && c < long(columns) && r < long(rows) && inside(std::size_t(r) * columns + std::size_t(c));
-  };
-  for (long r = 0; r <= long(rows); ++r)
-    for (long c = 0; c <= long(columns); ++c) {
-      const double left = x.lo + (double(c) - 0.5) * dx, low = y.lo + (double(r) - 0.5) * dy;
-      if (in(c, r) != in(c - 1, r)) text += fmt::format("{:.5g} {:.5g} 0 {:.5g}\n", left, low, dy);
-      if (in(c, r) != in(c, r - 1)) text += fmt::format("{:.5g} {:.5g} {:.5g} 0\n", left, low, dx);
-    }
-  return text.empty() ? "NaN NaN 0 0\n" : text;
-}
 
 constexpr const char* kErrorPalette =
     "set palette defined (-17 '#f7fbff', -13 '#9ecae1', -9 '#4292c6', -6 '#fee391', -3 '#fe9929', 0 '#cc4c02', 1 "
@@ -58,8 +42,8 @@ std::string map_chart(const StabilitySweep& sweep, const StabilityMap& map) {
       script += fmt::format("{:.5g} {:.5g} {}\n", cell.x, cell.y, value);
     }
     script += fmt::format("EOD\n$o{} << EOD\n{}EOD\nset title '{}'\n", panel,
-                          outline(map.columns, map.rows, sweep.x, sweep.y,
-                                  [&](std::size_t c) { return fails(sweep, map.cells[c], panel); }),
+                          map_outline(map.columns, map.rows, sweep.x, sweep.y,
+                                      [&](std::size_t c) { return fails(sweep, map.cells[c], panel); }),
                           kMapPanels[panel]);
     script += fmt::format(
         "plot $m{0} using 1:2:3 with image, $o{0} using 1:2:3:4 with vectors nohead lw 1.5 lc rgb '#000000'\n", panel);
@@ -80,8 +64,8 @@ std::string energy_chart(const std::vector<EnergyMap>& maps) {
     for (const auto& cell : map.cells)
       script += fmt::format("{:.4g} {:.4g} {:.4f}\n", cell[0], cell[1] == 89 ? 90.0 : cell[1], std::min(cell[2], 4.0));
     script += fmt::format("EOD\n$o{} << EOD\n{}EOD\n", m,
-                          outline(map.columns, map.rows, map.x, {"", 0, 90, false},
-                                  [&](std::size_t c) { return map.cells[c][2] > 1 + 1e-3; }));
+                          map_outline(map.columns, map.rows, map.x, {"", 0, 90, false},
+                                      [&](std::size_t c) { return map.cells[c][2] > 1 + 1e-3; }));
     script += fmt::format(
         "set title '{}'\nset xlabel '{}'\nset xrange [{}:{}]\nplot $m{} using 1:2:3 with image, $o{} using 1:2:3:4 "
         "with vectors nohead lw 1.5 lc rgb '#000000'\n",
@@ -120,7 +104,7 @@ std::string validity_chart() {
     script += fmt::format(
         "EOD\n$o{} << EOD\n{}EOD\nset title '{} degrees'\nplot $m{} using 1:2:3 with image, $o{} using 1:2:3:4 with "
         "vectors nohead lw 1.5 lc rgb '#000000'\n",
-        p, outline(columns, rows, x, y, [&](std::size_t c) { return margin[c] < 10; }), kValidityAngles[p], p, p);
+        p, map_outline(columns, rows, x, y, [&](std::size_t c) { return margin[c] < 10; }), kValidityAngles[p], p, p);
   }
   return gnuplot_svg(script + "unset multiplot\n", 1300, 420);
 }

@@ -162,8 +162,16 @@ std::string words_of(const std::string& warning) {
   return words;
 }
 
+/// A scan that shows the case's own lobe well: what gonio says of it is not about the flaw.
+ScanPlan sound_plan(const AtlasCase& c) {
+  constexpr double kNarrow = 0.02, kFineStepDeg = 0.25;
+  ScanPlan plan;
+  if (c.values[0] < kNarrow) plan.step_deg = kFineStepDeg;
+  return plan;
+}
+
 Misled misled(const AtlasCase& c) {
-  const Measurement sound = filled(planned_scan({}), c.made_by, c.values, c.made_of, kNoise, 7);
+  const Measurement sound = filled(planned_scan(sound_plan(c)), c.made_by, c.values, c.made_of, kNoise, 7);
   Measurement scan = filled(planned_scan(c.plan), c.made_by, c.values, c.made_of, kNoise, 7);
   if (c.spoil) c.spoil(scan, c);
   Misled found{c.name, c.title, c.flaw, fit_of(c, scan, false), {}, {}};

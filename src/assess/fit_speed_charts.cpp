@@ -114,12 +114,13 @@ std::string bars_chart(const std::vector<FitBar>& bars) {
   }
   return gnuplot_svg(
       data +
-          fmt::format("EOD\nset logscale x\nset grid lc rgb '#dddddd'\nset key below vertical maxrows 2 samplen "
-                      "1\nset ytics ({})\nset yrange [0.4:{}.6]\nset xlabel 'ms'\nplot $m using 4:1 with points pt 2 "
+          fmt::format("EOD\nset logscale x\nset grid lc rgb '#dddddd'\nset key outside top center horizontal samplen "
+                      "1 width -2 font ',12'\nset ytics ({})\nset yrange [0.4:{}.6]\nset xlabel 'ms'\nplot $m using "
+                      "4:1 with points pt 2 "
                       "ps 1.6 lw 2 lc rgb '#cc0000' title 'bar', $m using 2:1 with points pt 7 ps 1.2 lc rgb "
                       "'#1b9e77' title '1 thread', $m using 3:1 with points pt 6 ps 1.2 lw 2 lc rgb '#1b9e77' title "
-                      "'2 threads', $m using 6:1 with points pt 4 ps 1.2 lc rgb '#7570b3' title 'whole gonio fit, "
-                      "1 thread', $m using 5:1 with points pt 9 ps 1.3 lc rgb '#d95f02' title 'peer'\n",
+                      "'2 threads', $m using 6:1 with points pt 4 ps 1.2 lc rgb '#7570b3' title 'whole "
+                      "fit', $m using 5:1 with points pt 9 ps 1.3 lc rgb '#d95f02' title 'peer'\n",
                       tics, bars.size()),
       1050, 460);
 }
@@ -179,7 +180,7 @@ The four models: lambert, torrance-sparrow, ggx, beckmann-kirchhoff (which four 
 
 ![bars](bars.svg)
 
-Orange triangles: the peer.
+Squares: the whole of `gonio fit`, 1 thread.
 
 ## Derivatives and metrics
 

@@ -12,8 +12,10 @@
 #include "base/files.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/fit_options.h"
 #include "fit/fit.h"
 #include "fit/fit_json.h"
+#include "fit/formats/formats.h"
 #include "fit/plots.h"
 #include "reports/html.h"
 
@@ -25,8 +27,8 @@ using Json = nlohmann::ordered_json;
 
 struct BatchArguments {
   std::vector<std::string> measurements, models;
-  std::string metric = "log", weighting, hold_out = "middle", material, floor, intervals = "curvature", out;
-  int starts = 16;
+  std::string out;
+  FitOptions options;
   bool refit = false;
 };
 
@@ -48,17 +50,24 @@ bool is_measurement(const fs::path& path) {
   return fs::is_regular_file(path) || fs::exists(path / "scan.csv") || fs::exists(path / "measurement.yaml");
 }
 
-/// A measurement as it is; of any other folder, the measurements and CSV files in it, by name.
+/// CSV, or what looks like a format of others and has its ending.
+bool may_be_scan(const fs::path& file) {
+  if (file.extension() == ".csv") return true;
+  const Format* format = format_of(file);
+  return format && file.extension() == format->extension;
+}
+
+/// A measurement as it is; of any other folder, the measurements and scans in it, by name.
 std::vector<fs::path> measurements_in(const fs::path& path) {
   if (!fs::exists(path))
     throw input_error("{}: does not exist; expected a measurement or a folder of them", path.string());
   if (is_measurement(path)) return {path};
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(path))
-    if (entry.is_directory() ? is_measurement(entry.path()) : entry.path().extension() == ".csv")
-      found.push_back(entry.path());
+    if (entry.is_directory() ? is_measurement(entry.path()) : may_be_scan(entry.path())) found.push_back(entry.path());
   if (found.empty())
-    throw input_error("{}: holds no measurement; expected folders with scan.csv, or CSV files", path.string());
+    throw input_error("{}: holds no measurement; expected folders with scan.csv, CSV files or foreign ones",
+                      path.string());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -78,32 +87,13 @@ std::string inputs_digest(const Task& task, const BatchArguments& a, std::uint64
     for (const auto& entry : fs::directory_iterator(task.measurement))
       if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  std::uint64_t digest =
-      digest_of(fmt::format("gonio batch 1|{}|{}|{}|{}|{}|{}|{}|{}|{}", task.model, a.metric, a.weighting, a.hold_out,
-                            a.material, a.floor, a.intervals, a.starts, seed));
+  std::uint64_t digest = digest_of(fmt::format("gonio batch 2|{}|{}|{}", task.model, a.options.words(), seed));
   for (const fs::path& file : files) {
     const std::string content = read_file(file);
     digest = digest_of(fmt::format("|{}|{}|", file.filename().string(), content.size()), digest);
     digest = digest_of(content, digest);
   }
   return fmt::format("{:016x}", digest);
-}
-
-FitRequest request_for(const Task& task, const BatchArguments& a, std::uint64_t seed) {
-  FitRequest request;
-  request.model.id = model(task.model).id;
-  request.metric = metric_from(a.metric);
-  if (!a.weighting.empty()) request.weighting = weighting_from(a.weighting);
-  if (!a.floor.empty()) request.floor_per_sr = number_in(a.floor, "--floor");
-  if (!a.material.empty()) request.material = a.material;
-  if (a.hold_out == "none")
-    request.hold_out = HoldOut::none;
-  else if (a.hold_out != "middle")
-    request.hold_out = HoldOut::chosen, request.hold_out_deg = number_in(a.hold_out, "--hold-out");
-  request.starts = a.starts;
-  request.seed = seed;
-  request.profile_intervals = a.intervals == "profile";
-  return request;
 }
 
 /// The fit that an earlier call left for the same inputs; null where there is none.
@@ -117,7 +107,7 @@ Json kept_fit(const fs::path& folder, const std::string& digest) {
 
 /// The record of the inputs is removed first and written last: an interrupted fit is fitted again.
 void fit_anew(Task& task, const FitRequest& request, const fs::path& folder, const std::string& digest) {
-  const FitResult result = fit(read_measurement(task.measurement), request);
+  const FitResult result = fit(read_any(task.measurement), request);
   make_folder(folder);
   for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg"}) fs::remove(folder / stale);
   write_plots(result, folder);
@@ -135,7 +125,7 @@ std::string one_line(std::string text) {
 
 void run_task(Task& task, const BatchArguments& a, std::uint64_t seed) {
   try {
-    const FitRequest request = request_for(task, a, seed);
+    const FitRequest request = request_for(a.options, task.model, seed);
     const std::string digest = inputs_digest(task, a, seed);
     const fs::path folder = fs::path(a.out) / task.folder;
     if (!a.refit) task.fit = kept_fit(folder, digest);
@@ -296,7 +286,7 @@ std::vector<Task> tasks_of(const BatchArguments& a) {
 
 void run_batch(const BatchArguments& a, Common& common) {
   std::vector<Task> tasks = tasks_of(a);
-  request_for(tasks.front(), a, common.seed);  // refuses options that no fit can take
+  request_for(a.options, tasks.front().model, common.seed);  // refuses options that no fit can take
   make_folder(a.out);
   int done = 0;
   for (Task& task : tasks) {
@@ -334,16 +324,7 @@ void add_batch(CLI::App& app, Common& common) {
   auto a = std::make_shared<BatchArguments>();
   command->add_option("measurements", a->measurements, "Measurements, or folders that hold measurements")->required();
   command->add_option("--model", a->models, "One or more models, see `gonio models`")->required();
-  command->add_option("--metric", a->metric, "log, linear or cuberoot")->capture_default_str();
-  command->add_option("--weighting", a->weighting, "none (default of log) or cosine (default of the others)");
-  command->add_option("--material", a->material, "Database id instead of the measurements'; `perfect` reflects 1");
-  command->add_option("--floor", a->floor, "f0 per sr of the log metric");
-  command->add_option("--starts", a->starts, "Number of starts")->check(CLI::Range(1, 4096))->capture_default_str();
-  command->add_option("--hold-out", a->hold_out, "Incidence angle in degrees to leave out of the fits; middle; none")
-      ->capture_default_str();
-  command->add_option("--intervals", a->intervals, "curvature or profile")
-      ->check(CLI::IsMember({"curvature", "profile"}))
-      ->capture_default_str();
+  add_fit_options(*command, a->options);
   command->add_flag("--refit", a->refit, "Fit again what is finished");
   command->add_option("-o,--out", a->out, "Folder to write")->required();
   command->callback([&common, a] { run_batch(*a, common); });

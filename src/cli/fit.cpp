@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/fit_options.h"
 #include "fit/choose.h"
 #include "fit/fit_json.h"
 #include "fit/formats/formats.h"
@@ -24,10 +25,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct FitArguments {
-  std::string measurement, metric = "log", loss = "none", weighting, variant, hold_out = "middle", material, floor, out,
-                           intervals = "curvature";
-  std::vector<std::string> models, settings, free;
-  int starts = 16;
+  std::string measurement, out;
+  std::vector<std::string> models;
+  FitOptions options;
   bool by_wavelength = false;
 };
 
@@ -54,59 +54,6 @@ class Progress {
   bool terminal_ = ::isatty(STDERR_FILENO) == 1, shown_ = false;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// shadowing=…, variant=…, or a parameter to be held at a value (alpha = √2·m).
-void apply_setting(const std::string& setting, FitRequest& request) {
-  const std::size_t equals = setting.find('=');
-  if (equals == setting.npos) throw input_error("{}: no setting; expected name=value", setting);
-  const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
-  if (name == "shadowing") return set_shadowing(request.model, value);
-  if (name == "variant") return set_variant(request.model, value);
-  if (name == "retro") return set_retro(request.model, value);
-  const double number = number_in(value, name);
-  const auto& parameters = request.model.info().parameters;
-  const bool has_m = std::any_of(parameters.begin(), parameters.end(), [](auto& p) { return p.name == "m"; });
-  if (name == "alpha" && has_m) {
-    if (!request.held.emplace("m", number / std::sqrt(2.0)).second)
-      throw input_error("alpha: m is given too; expected one of the two");
-    return;
-  }
-  request.model.info().index_of(name);  // refuses an unknown one
-  if (!request.held.emplace(name, number).second)
-    throw input_error("{}: given twice; expected once (alpha = sqrt(2) m)", name);
-}
-
-void apply_hold_out(const std::string& text, FitRequest& request) {
-  if (text == "middle") return;
-  request.hold_out = text == "none" ? HoldOut::none : HoldOut::chosen;
-  if (text != "none") request.hold_out_deg = number_in(text, "--hold-out");
-}
-
-FitRequest request_for(const FitArguments& arguments, const std::string& name, const Common& common) {
-  FitRequest request;
-  request.model.id = model(name).id;
-  request.metric = metric_from(arguments.metric);
-  const std::size_t equals = arguments.loss.find('=');
-  request.loss = loss_from(arguments.loss.substr(0, equals));
-  if (equals != std::string::npos) {
-    request.loss_width = number_in(arguments.loss.substr(equals + 1), "--loss");
-    if (!(request.loss_width > 0)) throw input_error("--loss {}: no width; expected more than 0", arguments.loss);
-  }
-  if (!arguments.weighting.empty()) request.weighting = weighting_from(arguments.weighting);
-  if (!arguments.floor.empty()) request.floor_per_sr = number_in(arguments.floor, "--floor");
-  if (!arguments.variant.empty()) set_variant(request.model, arguments.variant);
-  if (!arguments.material.empty()) request.material = arguments.material;
-  for (const std::string& setting : arguments.settings) apply_setting(setting, request);
-  for (const std::string& parameter : arguments.free) {
-    if (parameter != "n") throw input_error("--free {}: cannot be freed; expected n", parameter);
-    request.free_n = true;
-  }
-  apply_hold_out(arguments.hold_out, request);
-  request.starts = arguments.starts;
-  request.seed = common.seed;
-  request.profile_intervals = arguments.intervals == "profile";
-  return request;
-}
 
 void print_card(const FitResult& result) {
   std::cout << fmt::format("{} of {} ({})\n", result.model.info().name,
@@ -204,8 +151,11 @@ void print_choice(const ModelChoice& choice) {
 
 /// --model auto: the chosen fit in OUT as if its model had been named, beside choice.csv.
 void run_choice(const Measurement& scan, const FitArguments& arguments, Common& common) {
-  FitArguments plain = arguments;
-  const FitRequest request = request_for(plain, "lambert", common);
+  const FitOptions& o = arguments.options;
+  if (!o.settings.empty() || !o.free.empty() || !o.variant.empty())
+    throw input_error(
+        "--model auto: takes no --set, --free or --variant, which are a model's own; expected it without");
+  const FitRequest request = request_for(o, "lambert", common.seed);
   Progress progress("auto");
   const ModelChoice choice =
       choose_model(scan, request, all_candidates(scan),
@@ -232,7 +182,7 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
   if (wavelengths.size() < 2 || arguments.models.size() != 1 || arguments.models[0] == "auto")
     throw input_error("--by-wavelength: {} wavelengths and {} models; expected 2 or more wavelengths and one model",
                       wavelengths.size(), arguments.models.size());
-  const FitRequest request = request_for(arguments, arguments.models[0], common);
+  const FitRequest request = request_for(arguments.options, arguments.models[0], common.seed);
   const std::filesystem::path out = arguments.out;
   Json json = Json::array();
   std::string csv;
@@ -266,7 +216,8 @@ void run_fit(const FitArguments& arguments, Common& common) {
     return run_choice(scan, arguments, common);
   }
   std::vector<FitRequest> requests;
-  for (const std::string& name : arguments.models) requests.push_back(request_for(arguments, name, common));
+  for (const std::string& name : arguments.models)
+    requests.push_back(request_for(arguments.options, name, common.seed));
   std::vector<FitResult> results;
   for (FitRequest& request : requests) {
     Progress progress(std::string(request.model.info().name));
@@ -308,27 +259,9 @@ void add_fit(CLI::App& app, Common& common) {
           "--model", a->models,
           "One or more models, see `gonio models`; auto: the simplest that these data cannot tell from the best")
       ->required();
-  command->add_option("--metric", a->metric, "log, linear or cuberoot")->capture_default_str();
-  command->add_option("--loss", a->loss, "none, huber or cauchy, with a width if it shall not be found: huber=0.1")
-      ->capture_default_str();
-  command->add_option("--weighting", a->weighting, "none (default of log) or cosine (default of the others)");
-  command->add_option("--set", a->settings, "shadowing=NAME, variant=NAME, or PARAMETER=VALUE to hold it");
-  command->add_option("--variant", a->variant, "Variant of the model");
-  command->add_option("--material", a->material, "Database id instead of the measurement's; `perfect` reflects 1");
+  add_fit_options(*command, a->options);
   command->add_flag("--by-wavelength", a->by_wavelength,
                     "Every wavelength with parameters of its own: a folder each, and by_wavelength.csv");
-  command->add_option("--free", a->free, "n: fit the refractive index (k = 0) where no material is known");
-  command->add_option(
-      "--floor", a->floor,
-      "f0 per sr of the log metric (default: smallest stated deviation, else 1e-3 of the smallest value)");
-  command->add_option("--starts", a->starts, "Number of starts")->check(CLI::Range(1, 4096))->capture_default_str();
-  command->add_option("--hold-out", a->hold_out, "Incidence angle in degrees to leave out of the fit; middle; none")
-      ->capture_default_str();
-  command
-      ->add_option("--intervals", a->intervals,
-                   "curvature (Student's, of the logarithm) or profile (of the likelihood)")
-      ->check(CLI::IsMember({"curvature", "profile"}))
-      ->capture_default_str();
   command->add_option("-o,--out", a->out, "Folder to write")->required();
   command->callback([&common, a] { run_fit(*a, common); });
 }

@@ -80,6 +80,7 @@ TEST_CASE("Atlas: each flaw misleads the parameter it must, and silence is calle
   CHECK(outside(entry(atlas, "aperture"), "m"));  // wider than the surface's lobe
   CHECK(entry(atlas, "aperture").result.value("m") > 0.02);
   CHECK(outside(entry(atlas, "narrow-hit"), "ks"));    // only ks/m² is seen
+  CHECK(says(entry(atlas, "narrow-hit"), "points an incidence"));
   CHECK_FALSE(entry(atlas, "stray-light").noticed());  // no fit could: it is a diffuse part
   CHECK(entry(atlas, "stray-light").explained());
   CHECK_FALSE(entry(atlas, "wrong-material").noticed());

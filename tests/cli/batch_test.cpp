@@ -1,6 +1,7 @@
 // gonio batch: every measurement with every model, kept where nothing changed, failures listed.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
@@ -83,6 +84,23 @@ TEST_CASE("a batch fits all, keeps what is finished and lists what fails", "[cli
     CHECK(cells == columns);
     from = end + 1;
   }
+}
+
+TEST_CASE("a batch reads the files of others and takes the options of fit", "[cli][batch]") {
+  const Scratch scratch;
+  scratch.file("own/scan.csv", diffuse_scan(0.5));
+  scratch.file("own/measurement.yaml", "name: grey\n");
+  std::filesystem::create_directories(scratch.path("scans"));
+  REQUIRE(run_gonio({"measurements", "convert", scratch.path("own"), "-o", scratch.path("scans/grey.astm")}).status ==
+          0);
+  const Outcome outcome = run_gonio({"batch", scratch.path("scans"), "--model", "torrance-sparrow", "--set", "ks=0",
+                                     "--set", "m=0.2", "--out", scratch.path("out"), "--json"});
+  INFO(outcome.err);
+  CHECK(outcome.status == 0);
+  const Json rows = rows_of(outcome);
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].at("measurement") == "grey");
+  CHECK(rows[0].at("parameters").at("kd").at("value").get<double>() == Approx(0.5).epsilon(0.02));
 }
 
 TEST_CASE("a batch that succeeds exits 0; misuse is refused", "[cli][batch]") {

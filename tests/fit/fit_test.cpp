@@ -95,6 +95,22 @@ TEST_CASE("an exponent called n is no refractive index", "[fit]") {
   CHECK(refusal(scan, request).find("exponent") != std::string::npos);
 }
 
+TEST_CASE("a peak that one point an incidence hits is not fitted in silence, a well-sampled one is", "[fit]") {
+  const auto warned = [](double slope_rms) {
+    const Measurement scan =
+        synthetic(empty_scan(), spec_of("torrance-sparrow"), std::vector<double>{slope_rms, 0.05, 0.9},
+                  perfect_interface<double>(), 0.02);  // steps of 5°, mirror directions hit
+    FitRequest request = request_of("torrance-sparrow", 6);
+    request.material = "perfect";
+    const FitResult result = fit(scan, request);
+    return warns(result, "points an incidence") || warns(result, "cannot be told apart");
+  };
+  CHECK(warned(0.003));
+  CHECK(warned(0.006));
+  CHECK_FALSE(warned(0.05));
+  CHECK_FALSE(warned(0.3));
+}
+
 TEST_CASE("Lambert's fit is the mean of the logarithms, its error the textbook's", "[fit]") {
   const Measurement scan =
       synthetic(empty_scan(), spec_of("lambert"), std::vector<double>{0.5}, perfect_interface<double>(), 0.1);

@@ -9,7 +9,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    for (const gonio::HeightProfile& profile : gonio::parse_profiles({reinterpret_cast<const char*>(data), size}, "profile.csv")) {
+    for (const gonio::HeightProfile& profile :
+         gonio::parse_profiles({reinterpret_cast<const char*>(data), size}, "profile.csv")) {
       if (!(profile.step_um > 0)) std::abort();
       for (const double z : profile.z_um)
         if (!std::isfinite(z)) std::abort();

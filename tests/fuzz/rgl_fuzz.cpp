@@ -1,21 +1,7 @@
-// Any bytes as an RGL .bsdf file (a tensor file): a Measurement or an InputError, nothing else.
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <string_view>
-
-#include "base/error.h"
+// Any bytes as an RGL .bsdf file (a tensor file): a Measurement that can be fitted or an InputError, nothing else.
 #include "fit/formats/rgl.h"
+#include "read_measurement.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try {
-    const gonio::Measurement scan = gonio::read_rgl(std::string_view(reinterpret_cast<const char*>(data), size), "FILE");
-    if (scan.points.empty() || scan.conventions.empty()) std::abort();
-    for (const gonio::ScanPoint& point : scan.points)
-      if (!std::isfinite(point.f_per_sr) || !(point.theta_i_deg >= 0 && point.theta_i_deg < 90) ||
-          !(point.theta_o_deg >= 0 && point.theta_o_deg < 90) || point.incidence >= scan.incidences_deg.size())
-        std::abort();
-  } catch (const gonio::InputError&) {
-  }
-  return 0;
+  return gonio::fuzz::foreign_file(data, size, gonio::read_rgl);
 }

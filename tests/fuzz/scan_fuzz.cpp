@@ -1,12 +1,8 @@
 // Any bytes as a scan (and, after the first NUL byte, as its measurement.yaml): a Measurement or an InputError, nothing
 // else.
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
 #include <string>
 
-#include "base/error.h"
-#include "fit/scan.h"
+#include "read_measurement.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -15,10 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     gonio::Measurement known;
     if (split != text.npos) known = gonio::parse_measurement_yaml(text.substr(split + 1), "measurement.yaml");
     const gonio::Measurement scan = gonio::parse_scan(std::string_view(text).substr(0, split), "scan.csv", known);
-    if (scan.points.empty()) std::abort();
-    for (const gonio::ScanPoint& point : scan.points)
-      if (!std::isfinite(point.f_per_sr) || !(point.theta_o_deg < 90) || point.incidence >= scan.incidences_deg.size())
-        std::abort();
+    gonio::fuzz::check(scan);
   } catch (const gonio::InputError&) {
   }
   return 0;

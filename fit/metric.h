@@ -1,24 +1,35 @@
 #pragma once
+// How values are compared, written once: for a number alone and for lanes of them.
 #include "base/special.h"
 #include "fit/problem.h"
 
 namespace gonio {
 
 /// ψ of the metric at f, and dψ/df (fit/problem.h).
+template <class T>
 struct Compared {
-  DoubleLanes value, slope;
+  T value, slope;
 };
-template <Metric kMetric>
-Compared compared_in_lanes(const DoubleLanes& f, const DoubleLanes& weight, const DoubleLanes& floor_per_sr) {
+template <Metric kMetric, class T>
+Compared<T> compared_at(const T& f, const T& weight, const T& floor_per_sr) {
   if constexpr (kMetric == Metric::log) {
-    const DoubleLanes sum = f + floor_per_sr;
-    return {fast_log(sum), DoubleLanes(1.0) / sum};
+    const T sum = f + floor_per_sr;  // positive, which the choice of points ensures
+    return {fast_log(sum), T(1.0) / sum};
   } else if constexpr (kMetric == Metric::linear) {
     return {f * weight, weight};
   } else {
-    const DoubleLanes seen = f * weight, root = xsimd::cbrt(seen);
-    return {root, weight / (DoubleLanes(3.0) * larger_of(square(root), DoubleLanes(1e-200)))};
+    using std::cbrt;
+    const T seen = f * weight, root = cbrt(seen);
+    return {root, weight / (T(3.0) * larger_of(T(square(root)), T(1e-200)))};
   }
+}
+
+/// run<metric>() for the metric at hand.
+template <class Run>
+auto with_metric(Metric metric, Run&& run) {
+  if (metric == Metric::log) return run.template operator()<Metric::log>();
+  if (metric == Metric::linear) return run.template operator()<Metric::linear>();
+  return run.template operator()<Metric::cuberoot>();
 }
 
 /// ρ of a robust loss (of half the squared residual, c its width) and the weight ρ' of a point:

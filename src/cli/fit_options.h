@@ -1,0 +1,26 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fit/fit.h"
+
+namespace gonio::cli {
+
+/// How to fit, as the command line says it: what `fit` and `batch` share.
+struct FitOptions {
+  std::string metric = "log", loss = "none", weighting, variant, hold_out = "middle", material, floor,
+              intervals = "curvature";
+  std::vector<std::string> settings, free;
+  int starts = 16;
+
+  std::string words() const;  ///< all of them, to tell one set of options from another
+};
+
+void add_fit_options(CLI::App& command, FitOptions& options);
+
+/// InputError for what no fit of that model can take.
+FitRequest request_for(const FitOptions& options, const std::string& model_name, std::uint64_t seed);
+
+}  // namespace gonio::cli
