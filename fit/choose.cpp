@@ -167,7 +167,7 @@ std::vector<ModelSpec> all_candidates(const Measurement& measurement) {
 ModelChoice choose_model(const Measurement& measurement, const FitRequest& request, std::vector<ModelSpec> specs,
                          const std::function<void(const std::string&, int, int)>& progress) {
   if (measurement.incidences_deg.size() < 3)
-    throw input_error("{}: {} incidence angles; expected 3 or more to choose a model by leaving scans out",
+    throw input_error("{}: too few incidence angles ({}); expected 3 or more to choose a model by leaving scans out",
                       measurement.id, measurement.incidences_deg.size());
   ModelChoice choice;
   choice.folds = static_cast<int>(std::min(kMostFolds, measurement.incidences_deg.size()));

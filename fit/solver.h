@@ -48,7 +48,6 @@ class LaneFit {
   Linearised linearise(const std::vector<double>& x) const;
 
   const FitProblem& problem() const { return problem_; }
-  std::size_t points() const { return points_.count; }
 
  private:
   friend class NormalEquations;

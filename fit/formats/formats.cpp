@@ -31,11 +31,18 @@ std::string head_of(const std::filesystem::path& path) {
   return head;
 }
 
+/// By ending and first bytes, by these alone, or by an ending that one format has to itself: its reader then says what is wrong.
 const Format* recognised(const std::string& extension, std::string_view head) {
   for (const bool by_extension : {true, false})
     for (const Format& known : formats())
       if ((!by_extension || extension == known.extension) && known.recognises(head)) return &known;
-  return nullptr;
+  const Format* named = nullptr;
+  for (const Format& known : formats()) {
+    if (extension != known.extension || extension == ".txt") continue;
+    if (named != nullptr) return nullptr;
+    named = &known;
+  }
+  return named;
 }
 
 std::string names() {

@@ -36,6 +36,14 @@ TEST_CASE("measurements info says what is there and how it was read", "[cli][for
   CHECK(text.out.find("read as      azimuth: signed") != std::string::npos);
 }
 
+TEST_CASE("a broken file of a format's own ending is refused by that format's reader", "[cli][formats]") {
+  const Scratch scratch;
+  scratch.file("cut.binary", std::string("\x5a\0\0\0\x5a\0", 6));
+  check_refused(scratch, {"measurements", "info", scratch.path("cut.binary")}, "offset");
+  scratch.file("broken.ddr", "no table\n");
+  check_refused(scratch, {"measurements", "info", scratch.path("broken.ddr")}, "broken.ddr:1");
+}
+
 TEST_CASE("measurements convert writes what reads back, and says what has no place", "[cli][formats]") {
   const Scratch scratch;
   CHECK(json_of({"convert", sample("he.txt"), "-o", scratch.path("he")})["format"] == "csv");
