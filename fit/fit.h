@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "brdf/models.h"
+#include "brdf/lobe_sum.h"
 #include "fit/next_measurement.h"
 #include "fit/problem.h"
 #include "fit/scan.h"
@@ -17,7 +17,7 @@ namespace gonio {
 enum class HoldOut { middle_incidence, none, chosen };
 
 struct FitRequest {
-  ModelSpec model;
+  LobeSum model;
   Metric metric = Metric::log;
   std::optional<Weighting> weighting;  ///< default: none under log, cosine under linear and cuberoot
   std::optional<double>
@@ -27,6 +27,7 @@ struct FitRequest {
   HoldOut hold_out = HoldOut::middle_incidence;  ///< middle_incidence leaves nothing out below three incidence angles
   double hold_out_deg = 0;                       ///< for HoldOut::chosen: the nearest incidence angle
   std::optional<std::string> material;           ///< instead of the measurement's; `perfect` reflects 1
+  std::vector<std::string> spectral;             ///< "kd", "ks": parameters of their own at each wavelength
   bool free_n = false;                           ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
   std::map<std::string, double> held;            ///< parameters held at a value
   std::vector<double> begin;                     ///< values of the model's parameters where one more start begins
@@ -46,6 +47,9 @@ struct FittedParameter {
   bool held = false, at_bound = false, identifiable = true;
   std::string interval95_kind = "curvature";  ///< or "profile": of the profile likelihood
   bool lo_open = false, hi_open = false;      ///< of a profile: the search box ended first
+  std::size_t group = kShared;                ///< the place in wavelength_nm that it belongs to, where kd or ks are spectral
+
+  static constexpr std::size_t kShared = FreeParameter::kShared;
 };
 
 /// Errors of a set of points: rms in the metric's own unit, rms_log10 of log10((f + f0)/(y + f0)) over positive y.
@@ -67,7 +71,7 @@ struct FittedPoint {
 };
 
 struct FitResult {
-  ModelSpec model;
+  LobeSum model;
   Metric metric = Metric::log;
   Weighting weighting = Weighting::none;
   Loss loss = Loss::none;
@@ -77,7 +81,7 @@ struct FitResult {
   std::optional<std::string> material;  ///< full database id
   std::vector<double> wavelength_nm;    ///< empty: not stated
   std::optional<double> assumed_wavelength_nm;
-  std::vector<FittedParameter> parameters;  ///< in the model's order, then n where it was fitted
+  std::vector<FittedParameter> parameters;  ///< in the model's order, those of each wavelength in a row; then n where it was fitted
   bool converged = false;
 
   Residuals all;
@@ -98,9 +102,10 @@ struct FitResult {
 
   std::string measurement_id, name, source, licence, quantity;
 
-  const FittedParameter* find(std::string_view parameter) const;
-  double value(std::string_view parameter) const;  ///< InputError when there is none
-  std::vector<double> values() const;              ///< in the order of the model's parameters
+  const FittedParameter* find(std::string_view parameter) const;  ///< the first of the name
+  double value(std::string_view parameter) const;                 ///< InputError when there is none
+  std::vector<double> values() const;  ///< in the order of the model's parameters, of the first wavelength
+  std::vector<double> by_wavelength(std::string_view parameter) const;  ///< all of the name
   std::optional<double> index() const;             ///< n, where it was fitted
 };
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "brdf/brdf.h"
+#include "brdf/lobe_sum.h"
 #include "materials/database.h"
 
 namespace gonio {
@@ -14,18 +14,27 @@ struct FitResult;
 
 /// What a fit leaves behind for those who use the material: model, values, and where its n and k come from.
 struct FittedMaterial {
-  ModelSpec model;
-  std::vector<double> values;                   ///< in the order of the model's parameters
+  LobeSum model;
+  std::vector<double> values;  ///< in the order of the model's parameters; of the first wavelength where they differ
+  /// For each parameter its values at wavelength_nm, or nothing where one value serves all; empty where all are shared.
+  std::vector<std::vector<double>> by_wavelength;
   std::optional<std::string> material;          ///< full database id; none: F = 1, or n as fitted
   std::optional<double> n;                      ///< fitted refractive index (k = 0)
   std::vector<double> wavelength_nm;            ///< of the fit, increasing; empty = not stated
   std::optional<double> assumed_wavelength_nm;  ///< where n and k were taken although the wavelength is not stated
 
-  Brdf<double> brdf() const { return make_brdf<double>(model, values); }
+  bool is_spectral() const { return !by_wavelength.empty(); }  ///< whether kd or ks differ between wavelengths
+
+  /// The parameters at a wavelength that wavelength() allows: linear between those of the fit.
+  std::vector<double> values_at(std::optional<double> wavelength_nm) const;
+  /// Lobe by lobe; their sum is f_r (brdf/lobe_sum.h).
+  std::vector<Brdf<double>> brdfs(std::optional<double> wavelength_nm) const {
+    return make_brdfs(model, values_at(wavelength_nm));
+  }
 
   /// The wavelength to evaluate at: the one asked for, else the fit's only one, else the assumed one. InputError where
-  /// the fit does not reach (other than its own wavelengths, unless n and k come from the database) or where one is
-  /// needed and none is known. No value: the material looks the same at every wavelength.
+  /// the fit does not reach (beyond its own wavelengths, unless n and k come from the database and kd, ks are shared) or
+  /// where one is needed and none is known. No value: the material looks the same at every wavelength.
   std::optional<double> wavelength(std::optional<double> asked_nm) const;
 
   /// n and k there (InputError outside the material's range).

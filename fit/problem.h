@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "brdf/brdf.h"
+#include "brdf/lobe_sum.h"
 #include "fit/scan.h"
 
 namespace gonio {
@@ -55,7 +55,7 @@ struct FreeParameter {
 /// stands at the logarithm of its box's lower end.
 class FitProblem {
  public:
-  ModelSpec model;
+  LobeSum model;
   Metric metric = Metric::log;
   double floor_per_sr = 0;  ///< f0
   Loss loss = Loss::none;
