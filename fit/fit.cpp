@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kFewPoints = 192, kSomePoints = 3000;
 constexpr double kWorthSolving =
     3;  ///< costs of starts on some of the points, over the least, from which on they are dropped
-constexpr double kTooLarge = 2;  ///< reduced chi² from which on the fit says so
+constexpr double kTooLarge = 2;         ///< reduced chi² from which on the fit says so
 constexpr std::size_t kMostSolved = 3;  ///< different minima among them that are solved on all points
 
 /// The logarithms of given values, inside their boxes (n, which is none of the model's, in the middle of its own).
@@ -358,7 +358,8 @@ std::vector<double> predict(const FitResult& result, double theta_i_deg, std::sp
   const std::vector<ApertureNode> aperture = aperture_nodes(result.aperture);
   std::vector<double> f;
   for (const double theta : theta_o_deg)
-    f.push_back(seen(lobes, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3, aperture));
+    f.push_back(
+        seen(lobes, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3, aperture));
   return f;
 }
 

@@ -42,17 +42,19 @@ void apply_hold_out(const std::string& text, FitRequest& request) {
 }  // namespace
 
 std::string FitOptions::words() const {
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", metric, loss, weighting, variant, hold_out, material,
-                     floor, intervals, aperture, source, noise, fmt::join(settings, ","), fmt::join(free, ","),
-                     fmt::join(spectral, ","), starts);
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", metric, loss, weighting, variant, hold_out,
+                     material, floor, intervals, aperture, source, noise, fmt::join(settings, ","),
+                     fmt::join(free, ","), fmt::join(spectral, ","), starts);
 }
 
 void add_fit_options(CLI::App& command, FitOptions& options) {
-  command.add_option("--metric", options.metric, "log, linear, cuberoot or likelihood (residuals in standard deviations)")
+  command
+      .add_option("--metric", options.metric, "log, linear, cuberoot or likelihood (residuals in standard deviations)")
       ->capture_default_str();
-  command.add_option("--noise", options.noise,
-                     "likelihood: standard deviation as a share of the value, 0.02 (default: as the scan states it, else "
-                     "from its repeats or reciprocal pairs)");
+  command.add_option(
+      "--noise", options.noise,
+      "likelihood: standard deviation as a share of the value, 0.02 (default: as the scan states it, else "
+      "from its repeats or reciprocal pairs)");
   command.add_option("--loss", options.loss, "none, huber or cauchy, with a width if it shall not be found: huber=0.1")
       ->capture_default_str();
   command.add_option("--weighting", options.weighting, "none (default of log) or cosine (default of the others)");
