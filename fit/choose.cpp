@@ -332,9 +332,8 @@ ModelChoice choose_model(const Measurement& measurement, const FitRequest& reque
     starts = triples(choice);
     try_all();
   }
-  std::stable_sort(choice.candidates.begin(), choice.candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return cost_of(a) < cost_of(b);
-  });
+  std::stable_sort(choice.candidates.begin(), choice.candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return cost_of(a) < cost_of(b); });
   compare(choice);
   choice.sentence = sentence_of(choice);
   return choice;

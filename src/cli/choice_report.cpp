@@ -93,13 +93,14 @@ void print_choice(const ModelChoice& choice, const std::vector<VisibleError>& se
                      })->bic;
   std::size_t width = 0;
   for (const Candidate& c : choice.candidates) width = std::max(width, described(c.result.model).size());
-  std::cout << fmt::format("{:<{}} {:>10} {:>10} {:>10} {:>22} {:>10} {:>10}{}\n", "model", width, "parameters", "rms_log10",
-                           "held out", "excess over the best", "AICc", "BIC", seen.empty() ? "" : "  largest dE");
+  std::cout << fmt::format("{:<{}} {:>10} {:>10} {:>10} {:>22} {:>10} {:>10}{}\n", "model", width, "parameters",
+                           "rms_log10", "held out", "excess over the best", "AICc", "BIC",
+                           seen.empty() ? "" : "  largest dE");
   for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
     const Candidate& c = choice.candidates[i];
     std::cout << fmt::format(
-        "{:<{}} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}{}\n", described(c.result.model), width, c.parameters,
-        c.result.all.rms_log10, c.held_out_log10,
+        "{:<{}} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}{}\n", described(c.result.model), width,
+        c.parameters, c.result.all.rms_log10, c.held_out_log10,
         i == choice.best ? std::string("best") : fmt::format("{:.2g} +- {:.2g}", c.worse, c.uncertain), c.aicc - aicc,
         c.bic - bic, seen.empty() ? std::string() : fmt::format(" {:>11.3g}", seen[i].largest),
         i == choice.chosen ? "  <- chosen" : "");

@@ -159,7 +159,7 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
 }
 
 void run_fit(const FitArguments& arguments, Common& common) {
-  const Measurement scan = read_any(arguments.measurement);
+  const Measurement scan = cleaned(read_any(arguments.measurement), arguments.options);
   for (const std::string& convention : scan.conventions) std::cerr << "read as: " << convention << '\n';
   for (const std::string& note : scan.notes) std::cerr << "note: " << note << '\n';
   const bool automatic = std::find(arguments.models.begin(), arguments.models.end(), "auto") != arguments.models.end();
