@@ -42,7 +42,8 @@ Signature::Signature(const Measurement& scan) {
 
 double Signature::at(double angle_deg) const {
   if (angle_deg <= points_.front().first) return points_.front().second;
-  if (angle_deg > points_.back().first) return 0;
+  if (angle_deg > points_.back().first + kSameAngle) return 0;
+  angle_deg = std::min(angle_deg, points_.back().first);
   const auto next = std::lower_bound(points_.begin() + 1, points_.end() - 1, std::pair(angle_deg, 0.0));
   const auto& [lo, from] = *(next - 1);
   return from * std::pow(next->second / from, (angle_deg - lo) / (next->first - lo));

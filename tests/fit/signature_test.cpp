@@ -15,7 +15,7 @@ namespace {
 
 /// f·cos θ_o of a made-up instrument against the angle from the mirror direction.
 double stray(double from_mirror) {
-  return 40 * std::exp(-square(from_mirror / 1.5)) + 0.02 * std::exp(-from_mirror / 15);
+  return 40 * std::exp(-square(from_mirror / 1.5)) + 0.02 * std::exp(-from_mirror / 6);
 }
 
 Measurement beam() {
