@@ -12,6 +12,7 @@
 #include "fit/fitted_material.h"
 #include "fit/prepare.h"
 #include "fit/profile_likelihood.h"
+#include "fit/scan_traps.h"
 #include "fit/solver.h"
 #include "fit/start.h"
 #include "fit/uncertainty.h"
@@ -342,6 +343,7 @@ FitResult fit(const Measurement& measurement, const FitRequest& request) {
   }
   store_points(measurement, ready, ready.problem, best.x, result);
   judge(ready, result);
+  warn_of_traps(measurement, result);
   if (!result.converged) result.warnings.push_back("no start converged: the values are those of the best one");
   if (result.refused_evaluations > 0)
     result.warnings.push_back(fmt::format("{} evaluations were not finite and refused", result.refused_evaluations));
