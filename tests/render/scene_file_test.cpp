@@ -53,7 +53,7 @@ TEST_CASE("a scene file says what is rendered", "[scene]") {
   CHECK(scene.camera.width == 64);
   REQUIRE(scene.materials.size() == 2);
   CHECK(scene.materials[0].material == "Au_Johnson");
-  CHECK(scene.materials[0].model.shadowing == Shadowing::v_cavity);
+  CHECK(scene.materials[0].model.first().shadowing == Shadowing::v_cavity);
   CHECK(scene.materials[0].values[0] == Approx(0.2 / std::sqrt(2)));
   CHECK(scene.materials[0].values[1] == 0.1);
   CHECK(scene.materials[0].values[2] == 1);
@@ -126,7 +126,7 @@ TEST_CASE("every bundled scene can be read and says what it validates", "[scene]
 
 TEST_CASE("a fitted material renders where its fit speaks, and nowhere else", "[scene]") {
   FittedMaterial fitted;
-  fitted.model = {ModelId::torrance_sparrow};
+  fitted.model = ModelSpec{ModelId::torrance_sparrow};
   fitted.values = {0.2, 0.1, 0.9};
   fitted.wavelength_nm = {532};
   CHECK(scene_material("a", fitted, {532}).material == "perfect");
