@@ -43,13 +43,14 @@ PairStatistics statistics(const std::vector<double>& log_ratios) {
   PairStatistics found;
   found.pairs = static_cast<int>(log_ratios.size());
   if (log_ratios.empty()) return found;
-  double squares = 0;
-  for (const double ratio : log_ratios) squares += ratio * ratio;
+  double squares = 0, sides = 0;
+  for (const double ratio : log_ratios) squares += ratio * ratio, sides += (ratio > 0) - (ratio < 0);
   found.rms_log10 = std::sqrt(squares / static_cast<double>(log_ratios.size()));
   found.spread_log10 = robust_spread(log_ratios, 0);
   found.median_log10 = median(log_ratios);
   const double scatter = robust_spread(log_ratios, found.median_log10);
   found.median_error_log10 = kMedianError * scatter / std::sqrt(static_cast<double>(log_ratios.size()));
+  found.one_sided = sides / std::sqrt(static_cast<double>(log_ratios.size()));
   return found;
 }
 
@@ -213,7 +214,7 @@ std::optional<std::string> reciprocity_broken(const PairStatistics& repeats, con
   if (reciprocal.pairs < kEnoughPairs) return std::nullopt;
   const double shift = std::abs(reciprocal.median_log10);
   constexpr double kTwoPercent = 0.0086;  // log10(1.02)
-  if (shift > kTwoPercent && shift > 5 * reciprocal.median_error_log10)
+  if (shift > kTwoPercent && (shift > 5 * reciprocal.median_error_log10 || std::abs(reciprocal.one_sided) > 4.5))
     return fmt::format(
         "the values are not reciprocal: of {} pairs of exchanged directions the one lit from closer to the normal is "
         "{} by a factor of {:.3g} (median)",

@@ -15,6 +15,7 @@ struct PairStatistics {
   double spread_log10 = 0;  ///< 1.4826 times the median of its size: a standard deviation that outliers do not move
   double median_log10 = 0;  ///< of reciprocal pairs: the value lit from closer to the normal over the other
   double median_error_log10 = 0;  ///< its standard error, for normal errors
+  double one_sided = 0;  ///< pairs above 1 less pairs below, over the root of their number: a normal deviate by chance
 };
 
 /// Share of the light that the values themselves send back, ∫ f·cos_o dω_o, where a scan covers the hemisphere.
