@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "fit/fitted_material.h"
 
 namespace gonio {
 namespace {
@@ -61,24 +60,22 @@ std::size_t scan_of(const ScanPoint& p) {
 
 /// Adds the squared log10 errors of a fit at points it has not seen, scan by scan; those that a logarithm cannot judge are passed over.
 void add_errors(const FitResult& fitted, const Measurement& points, std::vector<double>& squares) {
-  const FittedMaterial material = fitted_material(fitted);
-  const Brdf<double> brdf = material.brdf();
-  std::map<double, Interface<double>> surfaces;
-  for (const ScanPoint& p : points.points) {
-    if (!(p.f_per_sr > 0)) continue;
-    const double nm = p.has_wavelength() ? p.wavelength_nm : fitted.assumed_wavelength_nm.value_or(1000);
-    const auto surface =
-        surfaces.find(nm) != surfaces.end() ? surfaces.find(nm) : surfaces.emplace(nm, material.surface(nm)).first;
-    const double f = evaluate(brdf, directions_from_deg(p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.phi_i_deg),
-                              surface->second, nm * 1e-3);
-    squares[scan_of(p)] += square(std::log10((f + fitted.floor_per_sr) / (p.f_per_sr + fitted.floor_per_sr)));
-  }
+  const std::vector<double> f = predict(fitted, points.points);
+  const double floor = fitted.floor_per_sr;
+  for (std::size_t i = 0; i < f.size(); ++i)
+    if (const ScanPoint& p = points.points[i]; p.f_per_sr > 0)
+      squares[scan_of(p)] += square(std::log10((f[i] + floor) / (p.f_per_sr + floor)));
 }
 
-/// Whether a lobe's own factor (A of the ABC laws) does what ks does.
-bool has_own_scale(const ModelInfo& info) {
-  return std::any_of(info.parameters.begin(), info.parameters.end(),
-                     [](const ParameterInfo& p) { return p.name == "a" && p.unit == "1/sr"; });
+/// Lobes with a factor of their own (A of the ABC laws), which does what ks does, keep ks = 1.
+void hold_scales(FitRequest& request) {
+  const LobeSum& model = request.model;
+  for (std::size_t i = 0; i < model.parameters().size(); ++i) {
+    if (!model.is_scale(i)) continue;
+    const auto& own = model.lobes()[model.place(i).lobe].info().parameters;
+    if (std::any_of(own.begin(), own.end(), [](auto& p) { return p.name == "a" && p.unit == "1/sr"; }))
+      request.held[std::string(model.parameters()[i].name)] = 1;
+  }
 }
 
 int free_parameters(const FitResult& result) {
@@ -93,8 +90,10 @@ void information_criteria(Candidate& c) {
   c.bic = fit + k * std::log(n);
 }
 
-std::string name_of(const ModelSpec& spec) {
-  return fmt::format("{}{}", spec.info().name, spec.retro ? " (turned back)" : "");
+auto cost_of(const LobeSum& model) {
+  const bool retro =
+      std::any_of(model.lobes().begin(), model.lobes().end(), [](const ModelSpec& lobe) { return lobe.retro; });
+  return std::tuple(model.parameters().size(), model.needs_wavelength(), retro);
 }
 
 /// Excess of each candidate over the best, scan by scan.
@@ -136,15 +135,22 @@ std::string sentence_of(const ModelChoice& choice) {
     return fmt::format(
         "{} predicts left-out scans best (rms_log10 {:.3g}), and every cheaper model is worse by more than one "
         "standard error: the data need its {} parameters",
-        name_of(chosen.result.model), chosen.held_out_log10, chosen.parameters);
+        described(chosen.result.model), chosen.held_out_log10, chosen.parameters);
   return fmt::format(
       "{} ({} parameters, held-out rms_log10 {:.3g}) is the simplest that these data cannot tell from the best, {} ({} "
       "parameters, {:.3g}): no more model than the data need",
-      name_of(chosen.result.model), chosen.parameters, chosen.held_out_log10, name_of(best.result.model),
+      described(chosen.result.model), chosen.parameters, chosen.held_out_log10, described(best.result.model),
       best.parameters, best.held_out_log10);
 }
 
 }  // namespace
+
+std::string described(const LobeSum& model) {
+  std::string names;
+  for (const ModelSpec& lobe : model.lobes())
+    names += fmt::format("{}{}{}", names.empty() ? "" : " + ", lobe.info().name, lobe.retro ? " (turned back)" : "");
+  return names;
+}
 
 std::vector<ModelSpec> all_candidates(const Measurement& measurement) {
   const bool wavelength = !measurement.wavelengths().empty() || measurement.material_wavelength_nm;
@@ -164,6 +170,132 @@ std::vector<ModelSpec> all_candidates(const Measurement& measurement) {
   return specs;
 }
 
+namespace {
+
+/// Judges one candidate after the other by leaving scans out.
+class Judge {
+ public:
+  Judge(const Measurement& measurement, const FitRequest& request, std::size_t folds)
+      : measurement_(measurement), request_(request), count_of_(measurement.incidences_deg.size() * kSectors, 0) {
+    const Measurement some = thinned(measurement);
+    const std::vector<std::size_t> fold = folds_of(some, folds);
+    for (std::size_t f = 0; f < folds; ++f) splits_.push_back(split(some, fold, f));
+    for (const ScanPoint& p : some.points) count_of_[scan_of(p)] += p.f_per_sr > 0;
+  }
+
+  std::vector<int> scan_points() const {
+    std::vector<int> points;
+    for (const int n : count_of_)
+      if (n > 0) points.push_back(n);
+    return points;
+  }
+
+  Candidate operator()(const LobeSum& model, const std::vector<double>& begin) const {
+    FitRequest whole = request_;
+    whole.model = model, whole.hold_out = HoldOut::none, whole.progress = {}, whole.begin = begin;
+    hold_scales(whole);
+    Candidate candidate;
+    candidate.result = fit(measurement_, whole);
+    candidate.parameters = free_parameters(candidate.result);
+    std::vector<std::vector<double>> squares(splits_.size(), std::vector<double>(count_of_.size(), 0.0));
+    tbb::parallel_for(std::size_t{0}, splits_.size(), [&](std::size_t f) {
+      FitRequest without = whole;
+      without.begin = candidate.result.values(), without.starts = 1;
+      without.floor_per_sr = candidate.result.floor_per_sr;
+      add_errors(fit(splits_[f].rest, without), splits_[f].left_out, squares[f]);
+    });
+    for (std::size_t s = 0; s < count_of_.size(); ++s) {
+      if (count_of_[s] == 0) continue;
+      double sum = 0;
+      for (const auto& of_fold : squares) sum += of_fold[s];
+      candidate.scan_error.push_back(sum / count_of_[s]);
+    }
+    information_criteria(candidate);
+    return candidate;
+  }
+
+ private:
+  const Measurement& measurement_;
+  const FitRequest& request_;
+  std::vector<Split> splits_;
+  std::vector<int> count_of_;
+};
+
+/// Mean squared error of what was left out.
+double mean_error(const Candidate& c, const std::vector<int>& points) {
+  double sum = 0, all = 0;
+  for (std::size_t s = 0; s < points.size(); ++s) sum += points[s] * c.scan_error[s], all += points[s];
+  return sum / all;
+}
+
+/// The best candidates of a kind, best first.
+std::vector<const Candidate*> best_of(const ModelChoice& choice, std::size_t most, auto&& wanted) {
+  std::vector<const Candidate*> found;
+  for (const Candidate& c : choice.candidates)
+    if (wanted(c.result.model)) found.push_back(&c);
+  std::stable_sort(found.begin(), found.end(), [&](const Candidate* a, const Candidate* b) {
+    return mean_error(*a, choice.scan_points) < mean_error(*b, choice.scan_points);
+  });
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+/// A sum and where to begin: its parts' shapes as they were fitted alone, each with its share of their scale.
+struct Start {
+  LobeSum model;
+  std::vector<double> begin;
+};
+Start sum_of(const Candidate& a, const Candidate& b) {
+  std::vector<ModelSpec> lobes = a.result.model.lobes();
+  lobes.insert(lobes.end(), b.result.model.lobes().begin(), b.result.model.lobes().end());
+  Start start{LobeSum(lobes), {}};
+  const std::size_t first = a.result.model.lobes().size();
+  const std::vector<double> of_a = a.result.values(), of_b = b.result.values();
+  for (std::size_t i = 0; i < start.model.parameters().size(); ++i) {
+    const LobeSum::Place place = start.model.place(i);
+    const bool in_a = place.lobe < first;
+    const LobeSum& part = in_a ? a.result.model : b.result.model;
+    double value = 0;
+    for (std::size_t j = 0; j < part.parameters().size(); ++j)
+      if (part.place(j).parameter == place.parameter && part.place(j).lobe == (in_a ? place.lobe : place.lobe - first))
+        value = (in_a ? of_a : of_b)[j];
+    start.begin.push_back(start.model.is_scale(i) || start.model.is_diffuse(i) ? 0.5 * value : value);
+  }
+  return start;
+}
+
+constexpr std::size_t kForward = 3, kTurnedBack = 2, kSumsContinued = 2;
+constexpr std::size_t kMostShapes = 12;  ///< parameters of a sum that is tried
+
+/// Pairs of the lobes that predict best alone, a lobe with another of its own kind too; of the best pairs then those with a third.
+std::vector<Start> pairs(const ModelChoice& choice) {
+  const auto plain = [](const LobeSum& m, bool retro) {
+    return !m.is_sum() && m.first().id != ModelId::lambert && m.first().retro == retro;
+  };
+  std::vector<const Candidate*> parts = best_of(choice, kForward, [&](const LobeSum& m) { return plain(m, false); });
+  for (const Candidate* c : best_of(choice, kTurnedBack, [&](const LobeSum& m) { return plain(m, true); }))
+    parts.push_back(c);
+  std::vector<Start> sums;
+  for (std::size_t a = 0; a < parts.size(); ++a)
+    for (std::size_t b = a; b < parts.size(); ++b)
+      if (parts[a]->result.model.parameters().size() + parts[b]->result.model.parameters().size() <= kMostShapes)
+        sums.push_back(sum_of(*parts[a], *parts[b]));
+  return sums;
+}
+std::vector<Start> triples(const ModelChoice& choice) {
+  const auto lobe = [](const LobeSum& m) { return !m.is_sum() && m.first().id != ModelId::lambert; };
+  const auto two = best_of(choice, kSumsContinued, [](const LobeSum& m) { return m.lobes().size() == 2; });
+  const auto one = best_of(choice, kForward, lobe);
+  std::vector<Start> sums;
+  for (const Candidate* pair : two)
+    for (const Candidate* third : one)
+      if (pair->result.model.parameters().size() + third->result.model.parameters().size() <= kMostShapes)
+        sums.push_back(sum_of(*pair, *third));
+  return sums;
+}
+
+}  // namespace
+
 ModelChoice choose_model(const Measurement& measurement, const FitRequest& request, std::vector<ModelSpec> specs,
                          const std::function<void(const std::string&, int, int)>& progress) {
   if (measurement.incidences_deg.size() < 3)
@@ -171,45 +303,28 @@ ModelChoice choose_model(const Measurement& measurement, const FitRequest& reque
                       measurement.id, measurement.incidences_deg.size());
   ModelChoice choice;
   choice.folds = static_cast<int>(std::min(kMostFolds, measurement.incidences_deg.size()));
-  const auto cost = [](const ModelSpec& s) {
-    return std::tuple(s.info().parameters.size(), s.info().needs_wavelength, s.retro);
-  };
-  std::stable_sort(specs.begin(), specs.end(), [&](auto& a, auto& b) { return cost(a) < cost(b); });
-
-  const Measurement some = thinned(measurement);
-  const std::vector<std::size_t> fold = folds_of(some, static_cast<std::size_t>(choice.folds));
-  std::vector<Split> splits;
-  for (int f = 0; f < choice.folds; ++f) splits.push_back(split(some, fold, static_cast<std::size_t>(f)));
-
-  std::vector<int> count_of(measurement.incidences_deg.size() * kSectors, 0);
-  for (const ScanPoint& p : some.points) count_of[scan_of(p)] += p.f_per_sr > 0;
-  for (const int n : count_of)
-    if (n > 0) choice.scan_points.push_back(n);
-
-  for (const ModelSpec& spec : specs) {
-    if (progress) progress(name_of(spec), static_cast<int>(choice.candidates.size()), static_cast<int>(specs.size()));
-    FitRequest whole = request;
-    whole.model = spec, whole.hold_out = HoldOut::none, whole.progress = {};
-    if (has_own_scale(spec.info())) whole.held["ks"] = 1;
-    Candidate candidate;
-    candidate.result = fit(measurement, whole);
-    candidate.parameters = free_parameters(candidate.result);
-    std::vector<std::vector<double>> squares(splits.size(), std::vector<double>(count_of.size(), 0.0));
-    tbb::parallel_for(std::size_t{0}, splits.size(), [&](std::size_t f) {
-      FitRequest without = whole;
-      without.begin = candidate.result.values(), without.starts = 1;
-      without.floor_per_sr = candidate.result.floor_per_sr;
-      add_errors(fit(splits[f].rest, without), splits[f].left_out, squares[f]);
-    });
-    for (std::size_t s = 0; s < count_of.size(); ++s) {
-      if (count_of[s] == 0) continue;
-      double sum = 0;
-      for (const auto& of_fold : squares) sum += of_fold[s];
-      candidate.scan_error.push_back(sum / count_of[s]);
+  const Judge judge(measurement, request, static_cast<std::size_t>(choice.folds));
+  choice.scan_points = judge.scan_points();
+  std::vector<Start> starts;
+  for (const ModelSpec& spec : specs) starts.push_back({spec, {}});
+  const auto try_all = [&] {
+    const std::size_t count = choice.candidates.size() + starts.size();
+    for (const Start& start : starts) {
+      if (progress)
+        progress(start.model.name(), static_cast<int>(choice.candidates.size()), static_cast<int>(count));
+      choice.candidates.push_back(judge(start.model, start.begin));
     }
-    information_criteria(candidate);
-    choice.candidates.push_back(std::move(candidate));
+  };
+  try_all();
+  if (specs.size() > 1 && request.sums) {
+    starts = pairs(choice);
+    try_all();
+    starts = triples(choice);
+    try_all();
   }
+  std::stable_sort(choice.candidates.begin(), choice.candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return cost_of(a.result.model) < cost_of(b.result.model);
+  });
   compare(choice);
   choice.sentence = sentence_of(choice);
   return choice;

@@ -31,6 +31,9 @@ struct ModelChoice {
   std::string sentence;
 };
 
+/// "ggx + phong-1975 (turned back)".
+std::string described(const LobeSum& model);
+
 /// Every model that a scan can be fitted with: the whole list but the mirror and, without a wavelength, those that need one; lobes with
 /// facets or a mirror direction also turned back towards the light.
 std::vector<ModelSpec> all_candidates(const Measurement& measurement);
@@ -39,7 +42,8 @@ std::vector<ModelSpec> all_candidates(const Measurement& measurement);
 /// (or one of up to 8 groups of them) is left out in turn, the rest fitted again from where the whole fit ended, and the log10 error of
 /// what was left out is compared scan by scan with the best candidate's. Chosen is the cheapest one whose excess lies within its own
 /// standard error and within that of the best error itself (Breiman et al. 1984, the one-standard-error rule; an excess that only a few scans
-/// show is uncertain, but it is there), or makes less than 1 % of the error. Lobes with a scale of their own keep ks = 1. `request.model` and `hold_out` are not looked at. InputError below 3 incidence angles.
+/// show is uncertain, but it is there), or makes less than 1 % of the error. Lobes with a scale of their own keep ks = 1. With `request.sums` the lobes that predict best alone are then tried in pairs, and the best pairs with
+/// a third. `request.model` and `hold_out` are not looked at. InputError below 3 incidence angles.
 ModelChoice choose_model(const Measurement& measurement, const FitRequest& request, std::vector<ModelSpec> specs,
                          const std::function<void(const std::string& what, int done, int count)>& progress = {});
 

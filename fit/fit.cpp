@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -23,6 +24,7 @@ namespace {
 constexpr std::size_t kFewPoints = 192, kSomePoints = 3000;
 constexpr double kWorthSolving =
     3;  ///< costs of starts on some of the points, over the least, from which on they are dropped
+constexpr double kTooLarge = 2;  ///< reduced chi² from which on the fit says so
 constexpr std::size_t kMostSolved = 3;  ///< different minima among them that are solved on all points
 
 /// The logarithms of given values, inside their boxes (n, which is none of the model's, in the middle of its own).
@@ -111,24 +113,61 @@ int count_minima(const std::vector<Solution>& solutions, std::size_t points) {
   return minima;
 }
 
+/// Parameters that a solution has without them: kd or ks of 0, at a place and of a wavelength.
+using AtZero = std::vector<FreeParameter>;
+
 /// kd or ks that ran to the lower end of the logarithmic box: 0 itself is tried, and kept where it is no worse.
-std::optional<std::size_t> try_zero(FitProblem& problem, Solution& solution) {
-  for (std::size_t i = 0; i < problem.free.size() && problem.free.size() > 1; ++i) {
-    if (!problem.free[i].linear || solution.x[i] > std::log(problem.free[i].lo) + 1e-9) continue;
+AtZero try_zero(FitProblem& problem, Solution& solution) {
+  AtZero zero;
+  for (std::size_t i = 0; i < problem.free.size() && problem.free.size() > 1;) {
+    const FreeParameter parameter = problem.free[i];
+    if (!parameter.linear || solution.x[i] > std::log(parameter.lo) + 1e-9) {
+      ++i;
+      continue;
+    }
     FitProblem without = problem;
-    without.values[problem.free[i].place] = 0;
+    without.values[parameter.place] = 0;
     without.free.erase(without.free.begin() + static_cast<std::ptrdiff_t>(i));
     std::vector<double> x = solution.x;
     x.erase(x.begin() + static_cast<std::ptrdiff_t>(i));
     Solution next = solve(without, std::move(x));
     const double rounding = 1e-12 * solution.cost + 1e-24 * static_cast<double>(problem.points.size());
-    if (!next.converged || !(next.cost <= solution.cost + rounding)) continue;
-    const std::size_t place = problem.free[i].place;
+    if (!next.converged || !(next.cost <= solution.cost + rounding)) {
+      ++i;
+      continue;
+    }
     problem = std::move(without);
     solution = std::move(next);
-    return place;
+    zero.push_back(parameter);
   }
-  return std::nullopt;
+  return zero;
+}
+
+/// Lobes of the same kind are interchangeable: the narrower first (the one with the smaller first parameter).
+void order_lobes(const FitProblem& problem, std::vector<double>& x) {
+  const LobeSum& model = problem.model;
+  const auto same = [](const ModelSpec& a, const ModelSpec& b) {
+    return a.id == b.id && a.shadowing == b.shadowing && a.form == b.form && a.retro == b.retro;
+  };
+  const auto of_lobe = [&](std::size_t lobe) {  // places in x by own parameter and wavelength
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> places;
+    for (std::size_t i = 0; i < problem.free.size(); ++i) {
+      const std::size_t place = problem.free[i].place;
+      if (place == FreeParameter::kIndex || model.is_diffuse(place) || model.place(place).lobe != lobe) continue;
+      places.emplace(std::pair(model.place(place).parameter, problem.free[i].group), i);
+    }
+    return places;
+  };
+  for (std::size_t pass = 1; pass < model.lobes().size(); ++pass)
+    for (std::size_t a = 0; a + 1 < model.lobes().size(); ++a) {
+      if (!same(model.lobes()[a], model.lobes()[a + 1])) continue;
+      const auto here = of_lobe(a), next = of_lobe(a + 1);
+      const auto keys = [](const auto& one, const auto& other) { return one.first == other.first; };
+      const bool alike = std::equal(here.begin(), here.end(), next.begin(), next.end(), keys);
+      if (!alike || here.empty() || here.begin()->first.first != 0) continue;  // one of them is held
+      if (x[here.begin()->second] <= x[next.begin()->second]) continue;
+      for (auto i = here.begin(), j = next.begin(); i != here.end(); ++i, ++j) std::swap(x[i->second], x[j->second]);
+    }
 }
 
 /// Widths at which the losses lose 5 % of the efficiency of least squares where errors are normal.
@@ -162,30 +201,51 @@ FittedParameter from_box(const ParameterInfo& info, double value) {
   return p;
 }
 
+FittedParameter free_parameter(const FitProblem& problem, const Solution& solution, const Uncertainty& errors,
+                               std::size_t i) {
+  const FreeParameter& box = problem.free[i];
+  FittedParameter p;
+  p.name = box.place == FreeParameter::kIndex ? box.name : std::string(problem.model.parameters()[box.place].name);
+  p.unit = box.unit, p.group = box.group, p.value = std::exp(solution.x[i]);
+  p.at_bound = errors.at_bound[i], p.identifiable = errors.identifiable[i];
+  p.lo95 = box.lo, p.hi95 = box.hi;
+  const double log_error = errors.standard_error[i];
+  if (std::isfinite(log_error)) {
+    p.standard_error = p.value * log_error;
+    p.lo95 = p.value * std::exp(-errors.t95 * log_error), p.hi95 = p.value * std::exp(errors.t95 * log_error);
+  }
+  return p;
+}
+
+FittedParameter zero_parameter(const FitProblem& problem, const FreeParameter& box) {
+  const ParameterInfo& info = problem.model.parameters()[box.place];
+  FittedParameter p = from_box(info, 0);
+  p.at_bound = true, p.group = box.group, p.hi95 = info.fit_lo;
+  return p;
+}
+
 void store_parameters(const FitProblem& problem, const Solution& solution, const Uncertainty& errors,
-                      std::optional<std::size_t> at_zero, FitResult& result) {
-  const auto& infos = problem.model.info().parameters;
-  std::vector<std::optional<FittedParameter>> fitted(infos.size());
+                      const AtZero& at_zero, FitResult& result) {
+  const auto& infos = problem.model.parameters();
+  std::vector<std::vector<FittedParameter>> fitted(infos.size());
   std::optional<FittedParameter> n;
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     const FreeParameter& box = problem.free[i];
-    FittedParameter p;
-    p.name = box.name, p.unit = box.unit, p.value = std::exp(solution.x[i]);
-    p.at_bound = errors.at_bound[i], p.identifiable = errors.identifiable[i];
-    p.lo95 = box.lo, p.hi95 = box.hi;
-    const double log_error = errors.standard_error[i];
-    if (std::isfinite(log_error)) {
-      p.standard_error = p.value * log_error;
-      p.lo95 = p.value * std::exp(-errors.t95 * log_error), p.hi95 = p.value * std::exp(errors.t95 * log_error);
-    }
-    if (p.at_bound) result.warnings.push_back(fmt::format("{} is at the bound of its box ({:.6g})", p.name, p.value));
-    (box.place == FreeParameter::kIndex ? n : fitted[box.place]) = p;
+    const FittedParameter p = free_parameter(problem, solution, errors, i);
+    if (p.at_bound) result.warnings.push_back(fmt::format("{} is at the bound of its box ({:.6g})", box.name, p.value));
+    if (box.place == FreeParameter::kIndex)
+      n = p;
+    else
+      fitted[box.place].push_back(p);
+  }
+  for (const FreeParameter& box : at_zero) {
+    fitted[box.place].push_back(zero_parameter(problem, box));
+    result.warnings.push_back(fmt::format("{} is at its bound, 0", box.name));
   }
   for (std::size_t i = 0; i < infos.size(); ++i) {
-    FittedParameter p = fitted[i].value_or(from_box(infos[i], problem.values[i]));
-    if (!fitted[i]) p.held = at_zero != i, p.at_bound = at_zero == i;
-    if (at_zero == i) p.hi95 = infos[i].fit_lo, result.warnings.push_back(fmt::format("{} is at its bound, 0", p.name));
-    result.parameters.push_back(p);
+    if (fitted[i].empty()) fitted[i].push_back(from_box(infos[i], problem.values[i])), fitted[i].back().held = true;
+    std::stable_sort(fitted[i].begin(), fitted[i].end(), [](auto& a, auto& b) { return a.group < b.group; });
+    result.parameters.insert(result.parameters.end(), fitted[i].begin(), fitted[i].end());
   }
   if (n) result.parameters.push_back(*n);
 }
@@ -225,19 +285,28 @@ const FittedParameter* FitResult::find(std::string_view parameter) const {
 
 double FitResult::value(std::string_view parameter) const {
   if (const FittedParameter* p = find(parameter)) return p->value;
-  throw input_error("{}: no parameter of this fit of {}", parameter, model.info().name);
+  throw input_error("{}: no parameter of this fit of {}", parameter, model.name());
+}
+
+std::vector<double> FitResult::by_wavelength(std::string_view parameter) const {
+  std::vector<double> all;
+  for (const FittedParameter& p : parameters)
+    if (p.name == parameter) all.push_back(p.value);
+  return all;
 }
 
 std::vector<double> FitResult::values() const {
   std::vector<double> all;
-  for (std::size_t i = 0; i < model.info().parameters.size(); ++i) all.push_back(parameters[i].value);
+  for (const ParameterInfo& p : model.parameters()) all.push_back(value(p.name));
   return all;
 }
 
 std::optional<double> FitResult::index() const {
-  // After the model's own parameters, of which one may be called n, too (Phong's exponent).
-  const std::size_t own = model.info().parameters.size();
-  return parameters.size() > own ? std::optional(parameters[own].value) : std::nullopt;
+  // A model's own parameter may be called n, too (Phong's exponent): it is not freed then.
+  const auto& own = model.parameters();
+  if (std::any_of(own.begin(), own.end(), [](const ParameterInfo& p) { return p.name == "n"; })) return std::nullopt;
+  const FittedParameter* n = find("n");
+  return n ? std::optional(n->value) : std::nullopt;
 }
 
 FitResult fit(const Measurement& measurement, const FitRequest& request) {
@@ -256,12 +325,21 @@ FitResult fit(const Measurement& measurement, const FitRequest& request) {
   for (const Solution& s : solutions) result.refused_evaluations += s.rejected;
   result.converged = best.converged;
 
-  const std::optional<std::size_t> at_zero = try_zero(ready.problem, best);
+  const AtZero at_zero = try_zero(ready.problem, best);
+  order_lobes(ready.problem, best.x);
   const Uncertainty errors = uncertainty(ready.problem, best);
   store_parameters(ready.problem, best, errors, at_zero, result);
   if (request.profile_intervals) use_profile_intervals(ready.problem, best, result);
   result.next_measurement = advice(ready.problem, best, errors);
   store_correlation(ready.problem, errors, result);
+  if (result.metric == Metric::likelihood && errors.freedom > 0) {
+    result.chi2_reduced = 2 * best.cost / errors.freedom;
+    if (*result.chi2_reduced > kTooLarge)
+      result.warnings.push_back(
+          fmt::format("residuals are {:.2g} times their standard deviations (reduced chi² {:.3g}; 1 where model and "
+                      "deviations are right): intervals are widened by as much",
+                      std::sqrt(*result.chi2_reduced), *result.chi2_reduced));
+  }
   store_points(measurement, ready, ready.problem, best.x, result);
   judge(ready, result);
   if (!result.converged) result.warnings.push_back("no start converged: the values are those of the best one");
@@ -275,11 +353,31 @@ std::vector<double> predict(const FitResult& result, double theta_i_deg, std::sp
   const FittedMaterial material = fitted_material(result);
   const std::optional<double> nm =
       result.wavelength_nm.empty() ? material.wavelength({}) : result.wavelength_nm.front();
-  const Brdf<double> brdf = material.brdf();
+  const std::vector<Brdf<double>> lobes = material.brdfs(nm);
   const Interface<double> surface = material.surface(nm);
+  const std::vector<ApertureNode> aperture = aperture_nodes(result.aperture);
   std::vector<double> f;
   for (const double theta : theta_o_deg)
-    f.push_back(evaluate(brdf, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3));
+    f.push_back(seen(lobes, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3, aperture));
+  return f;
+}
+
+std::vector<double> predict(const FitResult& result, std::span<const ScanPoint> points) {
+  const FittedMaterial material = fitted_material(result);
+  const std::vector<ApertureNode> aperture = aperture_nodes(result.aperture);
+  struct AtWavelength {
+    std::vector<Brdf<double>> lobes;
+    Interface<double> surface;
+  };
+  std::map<double, AtWavelength> known;
+  std::vector<double> f;
+  for (const ScanPoint& p : points) {
+    const double nm = p.has_wavelength() ? p.wavelength_nm : result.assumed_wavelength_nm.value_or(1000);
+    if (!known.contains(nm)) known.emplace(nm, AtWavelength{material.brdfs(nm), material.surface(nm)});
+    const AtWavelength& at = known.at(nm);
+    const Directions<double> w = directions_from_deg(p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.phi_i_deg);
+    f.push_back(seen(at.lobes, w, at.surface, nm * 1e-3, aperture));
+  }
   return f;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "brdf/lobe_sum.h"
+#include "fit/aperture.h"
 #include "fit/next_measurement.h"
 #include "fit/problem.h"
 #include "fit/scan.h"
@@ -23,11 +24,14 @@ struct FitRequest {
   std::optional<double>
       floor_per_sr;  ///< f0; default: the smallest stated standard deviation, else 1e-3 of the smallest value
   int starts = 16;
+  bool sums = true;  ///< whether a choice of model (fit/choose.h) tries sums of lobes
   std::uint64_t seed = 1;
   HoldOut hold_out = HoldOut::middle_incidence;  ///< middle_incidence leaves nothing out below three incidence angles
   double hold_out_deg = 0;                       ///< for HoldOut::chosen: the nearest incidence angle
   std::optional<std::string> material;           ///< instead of the measurement's; `perfect` reflects 1
   std::vector<std::string> spectral;             ///< "kd", "ks": parameters of their own at each wavelength
+  Aperture aperture;                             ///< what the model is averaged over before it is compared
+  double relative_sd = 0;  ///< Metric::likelihood: standard deviation as a share of |y| + f0; 0: as the scan states it
   bool free_n = false;                           ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
   std::map<std::string, double> held;            ///< parameters held at a value
   std::vector<double> begin;                     ///< values of the model's parameters where one more start begins
@@ -74,6 +78,9 @@ struct FitResult {
   LobeSum model;
   Metric metric = Metric::log;
   Weighting weighting = Weighting::none;
+  Aperture aperture;
+  double relative_sd = 0;             ///< of the request
+  std::optional<double> chi2_reduced;  ///< Metric::likelihood: Σ residual²/(points - parameters), 1 where model and errors are right
   Loss loss = Loss::none;
   double loss_width = 0;
   double floor_per_sr = 0;
@@ -117,5 +124,7 @@ FitResult fit(const Measurement& measurement, const FitRequest& request);
 /// wavelength is that of the fit (the first one, or the assumed one).
 std::vector<double> predict(const FitResult& result, double theta_i_deg, std::span<const double> theta_o_deg,
                             double phi_deg);
+/// The same at the rows of a scan, at their wavelengths.
+std::vector<double> predict(const FitResult& result, std::span<const ScanPoint> points);
 
 }  // namespace gonio

@@ -1,5 +1,7 @@
 #include "fit/fit_json.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace gonio {
@@ -22,6 +24,37 @@ Json parameter(const FittedParameter& p) {
   json["interval95_kind"] = p.interval95_kind;
   if (p.lo_open || p.hi_open) json["interval95_open"] = {p.lo_open, p.hi_open};
   if (p.held) json["held"] = true;
+  return json;
+}
+
+/// Lists over wavelength_nm in place of what differs between wavelengths.
+Json parameters(const FitResult& result) {
+  Json all = Json::object();
+  for (const FittedParameter& p : result.parameters) {
+    const Json one = parameter(p);
+    if (p.group == FittedParameter::kShared) {
+      all[p.name] = one;
+      continue;
+    }
+    Json& lists = all[p.name];
+    for (const auto& [key, value] : one.items())
+      if (key == "unit" || key == "interval95_kind")
+        lists[key] = value;
+      else
+        lists[key].push_back(value);
+  }
+  return all;
+}
+
+/// Choices that are no numbers; of a sum with the suffix of the lobe.
+Json options(const LobeSum& model) {
+  Json json = Json::object();
+  for (std::size_t j = 0; j < model.lobes().size(); ++j) {
+    const ModelSpec& lobe = model.lobes()[j];
+    const std::string suffix = model.is_sum() ? fmt::format("_{}", j + 1) : "";
+    if (!lobe.info().shadowings.empty()) json["shadowing" + suffix] = name_of(lobe.shadowing);
+    if (lobe.retro) json["retro" + suffix] = "yes";
+  }
   return json;
 }
 
@@ -54,17 +87,18 @@ Json next(const NextMeasurement& n) {
 }  // namespace
 
 Json to_json(const FitResult& result) {
-  Json json{{"gonio_fit", 1}, {"model", result.model.info().name}, {"variant", result.model.variant()}};
-  json["options"] = Json::object();
-  if (!result.model.info().shadowings.empty()) json["options"]["shadowing"] = name_of(result.model.shadowing);
-  if (result.model.retro) json["options"]["retro"] = "yes";
+  Json json{{"gonio_fit", 1}, {"model", result.model.name()}, {"variant", result.model.variant()}};
+  json["options"] = options(result.model);
   json["material"] = or_null(result.material);
   json["wavelength_nm"] = result.wavelength_nm;
   json["assumed_wavelength_nm"] = or_null(result.assumed_wavelength_nm);
-  json["parameters"] = Json::object();
-  for (const FittedParameter& p : result.parameters) json["parameters"][p.name] = parameter(p);
+  json["parameters"] = parameters(result);
   json["metric"] = name_of(result.metric);
   json["weighting"] = name_of(result.weighting);
+  if (result.chi2_reduced) json["chi2_reduced"] = *result.chi2_reduced;
+  if (result.relative_sd > 0) json["relative_sd"] = result.relative_sd;
+  if (result.aperture.detector_deg > 0 || result.aperture.source_deg > 0)
+    json["aperture"] = {{"detector_deg", result.aperture.detector_deg}, {"source_deg", result.aperture.source_deg}};
   if (result.loss != Loss::none) json["loss"] = {{"name", name_of(result.loss)}, {"width", result.loss_width}};
   json["floor_per_sr"] = result.floor_per_sr;
   json["residuals"] = residuals(result);

@@ -18,7 +18,8 @@ bool same_surface(const FitPoint& a, const FitPoint& b) {
 
 }  // namespace
 
-LanePoints::LanePoints(const FitProblem& problem, std::span<const std::size_t> chosen) : count(chosen.size()) {
+LanePoints::LanePoints(const FitProblem& problem, std::span<const std::size_t> chosen, const ApertureNode* node)
+    : count(chosen.size()) {
   std::vector<std::size_t> order(chosen.begin(), chosen.end());
   const auto key = [&](std::size_t p) {
     const FitPoint& at = problem.points[p];
@@ -43,6 +44,7 @@ LanePoints::LanePoints(const FitProblem& problem, std::span<const std::size_t> c
   for (auto* component : {&cos_i, &cos_o, &cos_d, &tan2_h, &tan2_i, &tan2_o, &ix, &iy, &ox, &oy, &hx, &hy, &measured,
                           &compared, &weight, &confidence})
     component->resize(all);
+  if (node != nullptr) share.resize(all);
   for_each_index(all, [&](std::size_t batch) {
     std::array<const FitPoint*, kWidth> at;
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
@@ -54,9 +56,17 @@ LanePoints::LanePoints(const FitProblem& problem, std::span<const std::size_t> c
       for (std::size_t lane = 0; lane < kWidth; ++lane) values[lane] = member(*at[lane]);
       to[batch] = DoubleLanes::load_unaligned(values.data());
     };
+    std::array<Directions<double>, kWidth> directions;
+    std::array<double, kWidth> shares{};
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+      directions[lane] =
+          node == nullptr ? at[lane]->directions : through(*node, at[lane]->directions, shares[lane]);
+    if (node != nullptr) share[batch] = DoubleLanes::load_unaligned(shares.data());
     using D = Directions<double>;
     const auto direction = [&](std::vector<DoubleLanes>& to, double D::*component) {
-      fill(to, [component](const FitPoint& p) { return p.directions.*component; });
+      std::array<double, kWidth> values;
+      for (std::size_t lane = 0; lane < kWidth; ++lane) values[lane] = directions[lane].*component;
+      to[batch] = DoubleLanes::load_unaligned(values.data());
     };
     direction(cos_i, &D::cos_i), direction(cos_o, &D::cos_o), direction(cos_d, &D::cos_d);
     direction(tan2_h, &D::tan2_h), direction(tan2_i, &D::tan2_i), direction(tan2_o, &D::tan2_o);

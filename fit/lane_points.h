@@ -20,7 +20,8 @@ struct LaneGroup {
 struct LanePoints {
   static constexpr std::size_t kWidth = DoubleLanes::size;
 
-  LanePoints(const FitProblem& problem, std::span<const std::size_t> chosen);
+  /// At the points' own directions, or at those of a node of the aperture.
+  LanePoints(const FitProblem& problem, std::span<const std::size_t> chosen, const ApertureNode* node = nullptr);
 
   Directions<DoubleLanes> directions(std::size_t batch) const {
     return {cos_i[batch], cos_o[batch], cos_d[batch], tan2_h[batch], tan2_i[batch], tan2_o[batch],
@@ -32,6 +33,7 @@ struct LanePoints {
   std::vector<DoubleLanes> compared;    ///< ψ of it
   std::vector<DoubleLanes> weight;      ///< of FitPoint
   std::vector<DoubleLanes> confidence;  ///< what a residual is multiplied by; 0 where there is no point
+  std::vector<DoubleLanes> share;       ///< of a node: its weight
   std::vector<LaneGroup> groups;
   std::vector<std::size_t> point;  ///< of each lane, kNoPoint where there is none
   std::size_t count = 0;           ///< of points

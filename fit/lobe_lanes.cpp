@@ -5,7 +5,6 @@
 namespace gonio {
 
 std::vector<DoubleLanes> facet_reflectances(const LanePoints& points, const LobeAt& at) {
-  if (at.n) return {};
   const Brdf<DoubleLanes> brdf = spread_brdf<DoubleLanes>(at.model, at.values);
   std::vector<DoubleLanes> all(points.batches());
   for (const LaneGroup& group : points.groups) {

@@ -15,7 +15,7 @@ Compared<T> compared_at(const T& f, const T& weight, const T& floor_per_sr) {
   if constexpr (kMetric == Metric::log) {
     const T sum = f + floor_per_sr;  // positive, which the choice of points ensures
     return {fast_log(sum), T(1.0) / sum};
-  } else if constexpr (kMetric == Metric::linear) {
+  } else if constexpr (kMetric == Metric::linear) {  // and likelihood, whose deviation is the point's confidence
     return {f * weight, weight};
   } else {
     using std::cbrt;
@@ -28,7 +28,7 @@ Compared<T> compared_at(const T& f, const T& weight, const T& floor_per_sr) {
 template <class Run>
 auto with_metric(Metric metric, Run&& run) {
   if (metric == Metric::log) return run.template operator()<Metric::log>();
-  if (metric == Metric::linear) return run.template operator()<Metric::linear>();
+  if (metric == Metric::linear || metric == Metric::likelihood) return run.template operator()<Metric::linear>();
   return run.template operator()<Metric::cuberoot>();
 }
 

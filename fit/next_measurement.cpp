@@ -93,7 +93,7 @@ std::optional<NextMeasurement> next_measurement(const FitProblem& problem, const
   const Linearised here = linearise(problem, solution.x);
   if (places.empty() || !(freedom > 0) || !here.finite) return std::nullopt;
   const double largest = here.jacobian.colwise().squaredNorm().maxCoeff();
-  const double variance = std::max(2 * solution.cost / freedom, kSmallestVariance * largest);
+  const double variance = std::max(residual_variance(problem, solution, freedom), kSmallestVariance * largest);
   const Eigen::MatrixXd c = covariance(problem, here.jacobian, places, variance);
   const auto column = chosen(problem, places, c, options.parameter);
   if (!column) return std::nullopt;

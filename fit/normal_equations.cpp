@@ -14,92 +14,117 @@ namespace {
 
 constexpr std::size_t kStretch = 128;  // batches
 constexpr std::size_t kMost = kMostColumns;
-using Triangle = std::array<double, kMost*(kMost + 1) / 2 + 1>;
+using Block = NormalEquations::Block;
+using Triangle = NormalEquations::Triangle;
+constexpr std::size_t kLinearEntries = (kMostLinear + 1) * (kMostLinear + 2) / 2;
+using LinearTriangle = std::array<double, kLinearEntries>;
+using LinearLanes = std::array<DoubleLanes, kLinearEntries>;
 
-/// What one block of batches adds: the triangle of the Gram matrix row by row, the cost last.
-template <Metric kMetric, Loss kLoss, std::size_t kColumns>
-GONIO_ONE_LOOP void add_block(const LanePoints& points, const DoubleLanes* value, const DoubleLanes* const* slope,
-                              std::size_t given_columns, double kd, double ks, double diffuse, double floor_per_sr,
-                              double loss_width, std::size_t from, std::size_t to, Triangle& sums) {
-  const std::size_t columns = kColumns > 0 ? kColumns : given_columns, varied = columns - 3;
+/// What one block of batches adds: the triangle of the Gram matrix row by row, the cost last. kColumns 0: as many as the block says; one lobe
+/// has its loop without choices.
+template <Metric kMetric, Loss kLoss, std::size_t kColumns, bool kOneLobe>
+GONIO_ONE_LOOP void add_block(const Block& block, Triangle& sums) {
+  const LanePoints& points = *block.points;
+  const std::size_t lobes = kOneLobe ? 1 : block.lobes;
+  const std::size_t columns = kColumns > 0 ? kColumns : block.columns, varied = columns - lobes - 2;
+  const std::size_t entries = columns * (columns + 1) / 2;
   constexpr std::size_t kRoom = kColumns > 0 ? kColumns : kMost;
   std::array<DoubleLanes, kRoom*(kRoom + 1) / 2> sum;
-  sum.fill(DoubleLanes(0.0));
+  std::fill_n(sum.begin(), entries, DoubleLanes(0.0));
   DoubleLanes cost(0.0);
-  const DoubleLanes constant(kd * diffuse), scale(ks), floor(floor_per_sr), d(diffuse);
-  for (std::size_t batch = from; batch < to; ++batch) {
-    const DoubleLanes s = value[batch], f = multiply_add(scale, s, constant);
+  const auto value = block.value;
+  const auto& slope = block.slope;
+  const DoubleLanes constant(block.linear[0] * block.diffuse), scale(block.linear[1]), floor(block.floor_per_sr),
+      d(block.diffuse);
+  const double loss_width = block.loss_width;
+  for (std::size_t batch = block.from; batch < block.to; ++batch) {
+    DoubleLanes f = multiply_add(scale, value[0][batch], constant);
+    if constexpr (!kOneLobe)
+      for (std::size_t l = 1; l < lobes; ++l)
+        f = multiply_add(DoubleLanes(block.linear[l + 1]), value[l][batch], f);
     const Compared<DoubleLanes> at = compared_at<kMetric>(f, points.weight[batch], floor);
     const DoubleLanes r = (at.value - points.compared[batch]) * points.confidence[batch];
     const Robust robust = robust_in_lanes<kLoss>(r, loss_width);
     cost += robust.cost;
     const DoubleLanes by_f = at.slope * points.confidence[batch];
     std::array<DoubleLanes, kRoom> column;
-    for (std::size_t j = 0; j < varied; ++j) column[j] = by_f * scale * slope[j][batch];
-    column[varied] = by_f * d, column[varied + 1] = by_f * s, column[varied + 2] = r;
+    for (std::size_t j = 0; j < varied; ++j) {
+      if constexpr (kOneLobe) {
+        column[j] = by_f * scale * slope[0][j][batch];
+      } else {  // n is every lobe's
+        DoubleLanes all(0.0);
+        for (std::size_t l = 0; l < lobes; ++l)
+          if (slope[l][j] != nullptr) all = multiply_add(DoubleLanes(block.linear[l + 1]), slope[l][j][batch], all);
+        column[j] = by_f * all;
+      }
+    }
+    column[varied] = by_f * d;
+    for (std::size_t l = 0; l < lobes; ++l) column[varied + 1 + l] = by_f * value[l][batch];
+    column[varied + 1 + lobes] = r;
     for (std::size_t i = 0, at_sum = 0; i < columns; ++i) {
       const DoubleLanes weighted = kLoss == Loss::none ? column[i] : column[i] * robust.weight;
       for (std::size_t j = 0; j <= i; ++j, ++at_sum) sum[at_sum] = multiply_add(weighted, column[j], sum[at_sum]);
     }
   }
-  const std::size_t entries = columns * (columns + 1) / 2;
   for (std::size_t i = 0; i < entries; ++i) sums[i] = xsimd::hadd(sum[i]);
   sums[entries] = xsimd::hadd(cost);
 }
 
-template <Metric kMetric, Loss kLoss, class... Rest>
-void add_columns(std::size_t columns, const LanePoints& points, const DoubleLanes* value,
-                 const DoubleLanes* const* slope, Rest&&... rest) {
-  const auto run = [&]<std::size_t kColumns>() {
-    add_block<kMetric, kLoss, kColumns>(points, value, slope, columns, rest...);
+template <Metric kMetric, Loss kLoss>
+void add_columns(const Block& block, Triangle& sums) {
+  const auto run = [&]<std::size_t kColumns, bool kOneLobe>() {
+    add_block<kMetric, kLoss, kColumns, kOneLobe>(block, sums);
   };
-  switch (columns) {
+  if (block.lobes > 1) return run.template operator()<0, false>();
+  switch (block.columns) {
     case 3:
-      return run.template operator()<3>();
+      return run.template operator()<3, true>();
     case 4:
-      return run.template operator()<4>();
+      return run.template operator()<4, true>();
     case 5:
-      return run.template operator()<5>();
+      return run.template operator()<5, true>();
     default:
-      return run.template operator()<0>();
+      return run.template operator()<0, true>();
   }
 }
 
-template <Metric kMetric, class... Rest>
-void add_loss(Loss loss, Rest&&... rest) {
-  if (loss == Loss::none) return add_columns<kMetric, Loss::none>(rest...);
-  if (loss == Loss::huber) return add_columns<kMetric, Loss::huber>(rest...);
-  add_columns<kMetric, Loss::cauchy>(rest...);
-}
-
-template <class... Rest>
-void add(Metric metric, Rest&&... rest) {
-  with_metric(metric, [&]<Metric kMetric>() { add_loss<kMetric>(rest...); });
+template <Metric kMetric>
+void add_loss(Loss loss, const Block& block, Triangle& sums) {
+  if (loss == Loss::none) return add_columns<kMetric, Loss::none>(block, sums);
+  if (loss == Loss::huber) return add_columns<kMetric, Loss::huber>(block, sums);
+  add_columns<kMetric, Loss::cauchy>(block, sums);
 }
 
 /// The same of the linear problem near the data.
 template <Metric kMetric>
-GONIO_ONE_LOOP void add_guess(const LanePoints& points, const DoubleLanes* value, double diffuse, double floor_per_sr,
-                              std::size_t from, std::size_t to, std::array<double, 6>& sums) {
-  std::array<DoubleLanes, 6> sum;
+GONIO_ONE_LOOP void add_guess(const Block& block, LinearTriangle& sums) {
+  const LanePoints& points = *block.points;
+  const std::size_t columns = block.lobes + 2;
+  LinearLanes sum;
   sum.fill(DoubleLanes(0.0));
-  const DoubleLanes floor(floor_per_sr), d(diffuse);
-  for (std::size_t batch = from; batch < to; ++batch) {
+  const DoubleLanes floor(block.floor_per_sr), d(block.diffuse);
+  for (std::size_t batch = block.from; batch < block.to; ++batch) {
     const DoubleLanes y = points.measured[batch];
     const DoubleLanes positive = larger_of(DoubleLanes(xsimd::abs(y)), DoubleLanes(1e-12));
     const DoubleLanes by_f =
         compared_at<kMetric>(positive, points.weight[batch], floor).slope * points.confidence[batch];
-    const std::array<DoubleLanes, 3> column{by_f * d, by_f * value[batch], by_f * y};
-    for (std::size_t i = 0, at = 0; i < 3; ++i)
+    std::array<DoubleLanes, kMostLinear + 1> column;
+    column[0] = by_f * d;
+    for (std::size_t l = 0; l < block.lobes; ++l) column[l + 1] = by_f * block.value[l][batch];
+    column[block.lobes + 1] = by_f * y;
+    for (std::size_t i = 0, at = 0; i < columns; ++i)
       for (std::size_t j = 0; j <= i; ++j, ++at) sum[at] = multiply_add(column[i], column[j], sum[at]);
   }
-  for (std::size_t i = 0; i < 6; ++i) sums[i] = xsimd::hadd(sum[i]);
+  for (std::size_t i = 0; i < columns * (columns + 1) / 2; ++i) sums[i] = xsimd::hadd(sum[i]);
 }
 
 }  // namespace
 
 NormalEquations::NormalEquations(const LaneFit& fit, bool with_roughness)
-    : linear(fit.linear_.size(), fit.held_), fit_(&fit), varied_(with_roughness ? fit.roughness_.size() : 0) {
+    : linear(fit.linear_.size(), fit.held_),
+      fit_(&fit),
+      varied_(with_roughness ? fit.roughness_.size() : 0),
+      columns_(fit.lobes_.size()) {
   for (std::size_t g = 0; g < fit.points_.groups.size(); ++g) {
     const LaneGroup& group = fit.points_.groups[g];
     for (std::size_t at = 0; at < group.batches; at += kStretch)
@@ -117,7 +142,23 @@ void NormalEquations::each_stretch(Sums&& sums) const {
   }
 }
 
-void NormalEquations::evaluate_lobe_at() {
+/// The mean over the aperture in place of the centre.
+void NormalEquations::average(std::size_t lobe, const LobeAt& at) {
+  LobeColumns& mean = columns_[lobe];
+  for (std::size_t q = 0; q < fit_->nodes_.size(); ++q) {
+    const LanePoints& points = fit_->nodes_[q];
+    LobeColumns& here = q == 0 ? mean : node_;
+    evaluate_lobe(points, at, fit_->lobes_[lobe].reflectance[q], varied_ > 0, here);
+    const auto add = [&](std::vector<DoubleLanes>& to, const std::vector<DoubleLanes>& from) {
+      for (std::size_t b = 0; b < to.size(); ++b)
+        to[b] = q == 0 ? points.share[b] * from[b] : multiply_add(points.share[b], from[b], to[b]);
+    };
+    add(mean.value, here.value);
+    for (std::size_t j = 0; j < mean.slope.size(); ++j) add(mean.slope[j], here.slope[j]);
+  }
+}
+
+void NormalEquations::evaluate_lobes() {
   const FitProblem& problem = fit_->problem_;
   std::vector<double> values = problem.values;
   std::optional<double> n;
@@ -125,22 +166,39 @@ void NormalEquations::evaluate_lobe_at() {
     const std::size_t place = problem.free[fit_->roughness_[i]].place;
     (place == FreeParameter::kIndex ? n.emplace() : values[place]) = std::exp(roughness[i]);
   }
-  evaluate_lobe(fit_->points_, {problem.model, values, fit_->varied_, n}, fit_->reflectance_, varied_ > 0, columns_);
+  for (std::size_t l = 0; l < columns_.size(); ++l) {
+    const LaneFit::Lobe& lobe = fit_->lobes_[l];
+    const std::vector<double> own = problem.model.values_of(l, values);
+    const LobeAt at{problem.model.lobes()[l], own, lobe.varied, n};
+    if (fit_->nodes_.empty())
+      evaluate_lobe(fit_->points_, at, lobe.reflectance[0], varied_ > 0, columns_[l]);
+    else
+      average(l, at);
+  }
+}
+
+NormalEquations::Block NormalEquations::block_of(const Stretch& stretch) const {
+  Block block{&fit_->points_, columns_.size(), varied_ + columns_.size() + 2};
+  for (std::size_t l = 0; l < columns_.size(); ++l) {
+    block.value[l] = columns_[l].value.data();
+    for (std::size_t j = 0; j < columns_[l].slope.size(); ++j)
+      block.slope[l][fit_->lobes_[l].roughness[j]] = columns_[l].slope[j].data();
+  }
+  block.linear = linear[fit_->block_of(fit_->points_.groups[stretch.group])];
+  block.diffuse = fit_->diffuse_[stretch.group];
+  block.floor_per_sr = fit_->problem_.floor_per_sr, block.loss_width = fit_->problem_.loss_width;
+  block.from = stretch.from, block.to = stretch.to;
+  return block;
 }
 
 bool NormalEquations::evaluate(bool new_roughness) {
-  if (new_roughness) evaluate_lobe_at();
+  if (new_roughness) evaluate_lobes();
   const FitProblem& problem = fit_->problem_;
-  const std::size_t columns = varied_ + 3, entries = columns * (columns + 1) / 2;
-  std::array<const DoubleLanes*, kMost> slope{};
-  for (std::size_t j = 0; j < varied_; ++j) slope[j] = columns_.slope[j].data();
-
+  const std::size_t columns = varied_ + columns_.size() + 2, entries = columns * (columns + 1) / 2;
   parts_.resize(stretches_.size());
   each_stretch([&](std::size_t i) {
-    const Stretch& stretch = stretches_[i];
-    const auto& [kd, ks] = linear[fit_->block_of(fit_->points_.groups[stretch.group])];
-    add(problem.metric, problem.loss, columns, fit_->points_, columns_.value.data(), slope.data(), kd, ks,
-        fit_->diffuse_[stretch.group], problem.floor_per_sr, problem.loss_width, stretch.from, stretch.to, parts_[i]);
+    const Block block = block_of(stretches_[i]);
+    with_metric(problem.metric, [&]<Metric kMetric>() { add_loss<kMetric>(problem.loss, block, parts_[i]); });
   });
 
   gram.assign(linear.size(), GramMatrix::Zero(Eigen::Index(columns), Eigen::Index(columns)));
@@ -160,23 +218,23 @@ bool NormalEquations::evaluate(bool new_roughness) {
   return finite;
 }
 
-std::vector<Eigen::Matrix3d> NormalEquations::linear_guess() {
+std::vector<LinearGram> NormalEquations::linear_guess() {
   const FitProblem& problem = fit_->problem_;
-  std::vector<std::array<double, 6>> parts(stretches_.size());
+  std::vector<LinearTriangle> parts(stretches_.size());
   each_stretch([&](std::size_t i) {
-    const Stretch& stretch = stretches_[i];
-    with_metric(problem.metric, [&]<Metric kMetric>() {
-      add_guess<kMetric>(fit_->points_, columns_.value.data(), fit_->diffuse_[stretch.group], problem.floor_per_sr,
-                         stretch.from, stretch.to, parts[i]);
-    });
+    const Block block = block_of(stretches_[i]);
+    with_metric(problem.metric, [&]<Metric kMetric>() { add_guess<kMetric>(block, parts[i]); });
   });
-  std::vector<Eigen::Matrix3d> sums(linear.size(), Eigen::Matrix3d::Zero());
+  const auto size = Eigen::Index(columns_.size() + 2);
+  std::vector<LinearGram> sums(linear.size(), LinearGram::Zero(size, size));
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    Eigen::Matrix3d& sum = sums[fit_->block_of(fit_->points_.groups[stretches_[p].group])];
-    for (Eigen::Index i = 0, at = 0; i < 3; ++i)
+    LinearGram& sum = sums[fit_->block_of(fit_->points_.groups[stretches_[p].group])];
+    for (Eigen::Index i = 0, at = 0; i < size; ++i)
       for (Eigen::Index j = 0; j <= i; ++j, ++at) sum(i, j) += parts[p][std::size_t(at)];
   }
-  for (Eigen::Matrix3d& sum : sums) sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose().eval();
+  for (LinearGram& sum : sums)
+    for (Eigen::Index i = 0; i < size; ++i)
+      for (Eigen::Index j = 0; j < i; ++j) sum(j, i) = sum(i, j);
   return sums;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "fit/aperture.h"
 #include "materials/database.h"
 
 namespace gonio {
@@ -16,16 +17,16 @@ constexpr double kRelativeDecades = 1e3;
 
 /// Whether n and k of a database material enter.
 bool needs_surface(const FitResult& result) {
-  return result.material && *result.material != "perfect" && result.model.id != ModelId::lambert;
+  return result.material && *result.material != "perfect" && result.model.first().id != ModelId::lambert;
 }
 
 void resolve_wavelength(const Measurement& scan, FitResult& result) {
   result.wavelength_nm = scan.wavelengths();
   if (!result.wavelength_nm.empty()) return;
-  if (result.model.info().needs_wavelength && !scan.material_wavelength_nm)
+  if (result.model.needs_wavelength() && !scan.material_wavelength_nm)
     throw input_error(
         "{}: {} needs the wavelength, which is not stated; expected wavelength_nm in measurement.yaml or the scan",
-        scan.id, result.model.info().name);
+        scan.id, result.model.name());
   if (needs_surface(result) && !scan.material_wavelength_nm)
     throw input_error(
         "{}: n and k of {} need a wavelength, which is not stated; expected wavelength_nm or material_wavelength_nm "
@@ -46,12 +47,10 @@ void resolve_material(const Measurement& scan, const FitRequest& request, FitRes
 }
 
 void say_what_is_assumed(const Measurement& scan, const FitRequest& request, FitResult& result) {
-  const ModelInfo& info = result.model.info();
-  const bool has_lobe =
-      std::any_of(info.parameters.begin(), info.parameters.end(), [](auto& p) { return p.name == "ks"; });
+  const bool has_lobe = result.model.first().id != ModelId::lambert;
   if (has_lobe && !result.material && !request.free_n)
     result.warnings.push_back("no material is known: F = 1 at every angle, and ks includes the reflectance");
-  if (result.assumed_wavelength_nm && (needs_surface(result) || info.needs_wavelength))
+  if (result.assumed_wavelength_nm && (needs_surface(result) || result.model.needs_wavelength()))
     result.warnings.push_back(
         fmt::format("the wavelength is not stated; {} at {} nm is assumed",
                     result.material ? fmt::format("n and k of {}", *result.material) : std::string("evaluation"),
@@ -62,7 +61,7 @@ void say_what_is_assumed(const Measurement& scan, const FitRequest& request, Fit
   if (scan.quantity == "relative")
     result.warnings.push_back(
         "the scan is relative: kd and ks are in its own unit, and energy conservation cannot be judged");
-  if (result.wavelength_nm.size() > 1)
+  if (result.wavelength_nm.size() > 1 && request.spectral.empty())
     result.warnings.push_back(
         fmt::format("one set of parameters is shared by {} wavelengths", result.wavelength_nm.size()));
 }
@@ -121,32 +120,66 @@ double default_floor(const Measurement& scan) {
   return std::isfinite(smallest_std) ? smallest_std : std::isfinite(smallest) ? 1e-3 * smallest : 0;
 }
 
-std::vector<FreeParameter> free_parameters(const Measurement& scan, const FitRequest& request) {
-  const ModelInfo& info = request.model.info();
+/// Which of the parameters have a value of their own at each wavelength: kd, or every lobe's ks.
+std::vector<bool> spectral_places(const FitRequest& request, const FitResult& result) {
+  const LobeSum& model = request.model;
+  std::vector<bool> spectral(model.parameters().size(), false);
+  for (const std::string& name : request.spectral) {
+    if (name != "kd" && name != "ks")
+      throw input_error("{}: cannot differ between wavelengths; expected kd, ks", name);
+    if (result.wavelength_nm.size() < 2)
+      throw input_error("{} of each wavelength: the scan states {}; expected two or more wavelengths", name,
+                        result.wavelength_nm.size());
+    for (std::size_t i = 0; i < spectral.size(); ++i)
+      if (name == "kd" ? model.is_diffuse(i) : model.is_scale(i)) spectral[i] = true;
+  }
+  return spectral;
+}
+
+/// kd or ks of each wavelength, named after it.
+void add_spectral(const FreeParameter& shared, const std::vector<double>& wavelength_nm,
+                  std::vector<FreeParameter>& free) {
+  for (std::size_t group = 0; group < wavelength_nm.size(); ++group) {
+    free.push_back(shared);
+    free.back().name = fmt::format("{}@{:g}nm", shared.name, wavelength_nm[group]), free.back().group = group;
+  }
+}
+
+void add_index(const FitRequest& request, std::vector<FreeParameter>& free) {
+  if (request.model.first().id == ModelId::lambert)
+    throw input_error("n: lambert has no lobe; expected a model with Fresnel reflection");
+  for (const ModelSpec& lobe : request.model.lobes())
+    if (std::any_of(lobe.info().parameters.begin(), lobe.info().parameters.end(), [](auto& p) { return p.name == "n"; }))
+      throw input_error("n: {} has an exponent of this name; expected a model without one to free the refractive index",
+                        lobe.info().name);
+  free.push_back({FreeParameter::kIndex, "n", "1", 1.01, 3, false});
+}
+
+std::vector<FreeParameter> free_parameters(const Measurement& scan, const FitRequest& request,
+                                           const FitResult& result) {
+  const LobeSum& model = request.model;
   for (const auto& [name, value] : request.held) {
-    const ParameterInfo& p = info.parameters[info.index_of(name)];
+    const ParameterInfo& p = model.parameters()[model.index_of(name)];
     if (!(value >= p.lo && value <= p.hi))
-      throw input_error("{}={}: outside the box of {}; expected {} to {}", name, value, info.name, p.lo, p.hi);
+      throw input_error("{}={}: outside the box of {}; expected {} to {}", name, value, model.name(), p.lo, p.hi);
   }
   double brightest = 0;
   for (const ScanPoint& point : scan.points) brightest = std::max(brightest, point.f_per_sr);
   const double unit = scan.quantity == "relative" && brightest > 0 ? kPi<double> * brightest : 1;
+  const std::vector<bool> spectral = spectral_places(request, result);
   std::vector<FreeParameter> free;
-  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
-    const ParameterInfo& p = info.parameters[i];
+  for (std::size_t i = 0; i < model.parameters().size(); ++i) {
+    const ParameterInfo& p = model.parameters()[i];
     if (request.held.contains(std::string(p.name))) continue;
     const double scale = p.linear ? unit : 1, wider = p.linear && unit != 1 ? kRelativeDecades : 1;
-    free.push_back({i, std::string(p.name), std::string(p.unit), p.fit_lo * scale / wider, p.fit_hi * scale * wider,
-                    p.name == "kd" || p.name == "ks"});
+    const FreeParameter parameter{i, std::string(p.name), std::string(p.unit), p.fit_lo * scale / wider,
+                                  p.fit_hi * scale * wider, model.is_diffuse(i) || model.is_scale(i)};
+    if (spectral[i])
+      add_spectral(parameter, result.wavelength_nm, free);
+    else
+      free.push_back(parameter);
   }
-  if (request.free_n) {
-    if (info.id == ModelId::lambert)
-      throw input_error("n: lambert has no lobe; expected a model with Fresnel reflection");
-    if (std::any_of(info.parameters.begin(), info.parameters.end(), [](auto& p) { return p.name == "n"; }))
-      throw input_error("n: {} has an exponent of this name; expected a model without one to free the refractive index",
-                        info.name);
-    free.push_back({FreeParameter::kIndex, "n", "1", 1.01, 3, false});
-  }
+  if (request.free_n) add_index(request, free);
   return free;
 }
 
@@ -155,20 +188,43 @@ FitProblem empty_problem(const Measurement& scan, const FitRequest& request, con
   problem.model = request.model;
   problem.metric = request.metric;
   problem.floor_per_sr = result.floor_per_sr;
-  problem.free = free_parameters(scan, request);
-  for (const ParameterInfo& p : request.model.info().parameters) {
+  problem.free = free_parameters(scan, request, result);
+  problem.aperture = aperture_nodes(request.aperture);
+  for (const ParameterInfo& p : request.model.parameters()) {
     const auto held = request.held.find(std::string(p.name));
     problem.values.push_back(held != request.held.end() ? held->second : p.fallback.value_or(p.fit_lo));
   }
   return problem;
 }
 
+/// Under the likelihood every point counts by its standard deviation: the one it states, else the request's share of its value.
+void set_confidence(const Measurement& scan, const FitRequest& request, FitResult& result,
+                    std::vector<FitPoint>& points) {
+  if (request.metric != Metric::likelihood) return;
+  const bool stated = std::all_of(scan.points.begin(), scan.points.end(),
+                                  [](const ScanPoint& p) { return p.f_std_per_sr > 0; });
+  if (!stated && !(request.relative_sd > 0))
+    throw input_error(
+        "{}: no standard deviation is known of every value; expected brdf_std_per_sr > 0, 8 repeats or reciprocal "
+        "pairs, or --noise SHARE",
+        scan.id);
+  const bool given = request.relative_sd > 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double y = scan.points[i].f_per_sr;
+    const double sd = given ? request.relative_sd * (std::abs(y) + result.floor_per_sr) : scan.points[i].f_std_per_sr;
+    points[i].confidence = 1 / sd;
+  }
+}
+
 }  // namespace
 
 Prepared prepare(const Measurement& scan, const FitRequest& request, FitResult& result) {
   result.model = request.model;
-  result.metric = request.metric;
-  result.weighting = request.weighting.value_or(request.metric == Metric::log ? Weighting::none : Weighting::cosine);
+  result.metric = request.metric, result.aperture = request.aperture, result.relative_sd = request.relative_sd;
+  const bool plain = request.metric == Metric::log || request.metric == Metric::likelihood;
+  if (request.metric == Metric::likelihood && request.weighting == Weighting::cosine)
+    throw input_error("weighting cosine: the likelihood weighs by the standard deviations; expected none");
+  result.weighting = request.weighting.value_or(plain ? Weighting::none : Weighting::cosine);
   result.measurement_id = scan.id, result.name = scan.name, result.source = scan.source, result.licence = scan.licence;
   result.quantity = scan.quantity;
   result.left_out = scan.left_out;
@@ -180,6 +236,7 @@ Prepared prepare(const Measurement& scan, const FitRequest& request, FitResult& 
   say_what_is_assumed(scan, request, result);
 
   Prepared ready{empty_problem(scan, request, result), all_points(scan, result), {}, {}, held_incidence(scan, request)};
+  set_confidence(scan, request, result, ready.points);
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const bool positive = scan.points[i].f_per_sr > 0 || request.metric != Metric::log;
     const bool held = ready.held_incidence && scan.points[i].incidence == *ready.held_incidence;

@@ -20,13 +20,24 @@ Enum enum_from(std::string_view name, const Enum (&all)[N], std::string_view wha
 }  // namespace
 
 std::string_view name_of(Metric metric) {
-  return metric == Metric::log ? "log" : metric == Metric::linear ? "linear" : "cuberoot";
+  switch (metric) {
+    case Metric::log:
+      return "log";
+    case Metric::linear:
+      return "linear";
+    case Metric::cuberoot:
+      return "cuberoot";
+    case Metric::likelihood:
+      return "likelihood";
+  }
+  return "";
 }
 std::string_view name_of(Weighting weighting) { return weighting == Weighting::none ? "none" : "cosine"; }
 std::string_view name_of(Loss loss) { return loss == Loss::none ? "none" : loss == Loss::huber ? "huber" : "cauchy"; }
 
 Metric metric_from(std::string_view name) {
-  return enum_from(name, {Metric::log, Metric::linear, Metric::cuberoot}, "metric", "log, linear or cuberoot");
+  return enum_from(name, {Metric::log, Metric::linear, Metric::cuberoot, Metric::likelihood}, "metric",
+                   "log, linear, cuberoot or likelihood");
 }
 Weighting weighting_from(std::string_view name) {
   return enum_from(name, {Weighting::none, Weighting::cosine}, "weighting", "none or cosine");
@@ -35,16 +46,28 @@ Loss loss_from(std::string_view name) {
   return enum_from(name, {Loss::none, Loss::huber, Loss::cauchy}, "loss", "none, huber or cauchy");
 }
 
+double seen(std::span<const Brdf<double>> lobes, const Directions<double>& centre, const Interface<double>& surface,
+            double wavelength_um, std::span<const ApertureNode> aperture) {
+  if (aperture.empty()) return evaluate(lobes, centre, surface, wavelength_um);
+  double sum = 0, weights = 0;
+  for (const ApertureNode& node : aperture) {
+    double weight = 0;
+    const Directions<double> w = through(node, centre, weight);
+    sum += weight * evaluate(lobes, w, surface, wavelength_um), weights += weight;
+  }
+  return sum / weights;
+}
+
 std::vector<double> FitProblem::predict(std::span<const double> x, std::span<const FitPoint> at) const {
   const std::optional<double> n = index_at(x);
-  std::vector<Brdf<double>> brdfs;
+  std::vector<std::vector<Brdf<double>>> brdfs;
   for (const FitPoint& point : at)
-    while (brdfs.size() <= point.group) brdfs.push_back(make_brdf<double>(model, values_at(x, brdfs.size())));
+    while (brdfs.size() <= point.group) brdfs.push_back(make_brdfs(model, values_at(x, brdfs.size())));
   std::vector<double> f(at.size());
   for_each_index(at.size(), [&](std::size_t i) {
     const FitPoint& point = at[i];
     const Interface<double> surface = n ? Interface<double>{*n, 0.0, false} : point.surface;
-    f[i] = evaluate(brdfs[point.group], point.directions, surface, point.wavelength_um);
+    f[i] = seen(brdfs[point.group], point.directions, surface, point.wavelength_um, aperture);
   });
   return f;
 }

@@ -130,7 +130,7 @@ std::vector<ProfileInterval> profile_intervals(const FitProblem& problem, const 
   const auto inside = std::count(errors.at_bound.begin(), errors.at_bound.end(), false);
   const double freedom = static_cast<double>(problem.points.size()) - static_cast<double>(inside);
   if (!(freedom > 0) || !(errors.t95 > 0)) return intervals;
-  const Rise rise{solution.cost, std::max(2 * solution.cost / freedom, std::numeric_limits<double>::min())};
+  const Rise rise{solution.cost, residual_variance(problem, solution, freedom)};
   tbb::parallel_for(std::size_t(0), intervals.size(),
                     [&](std::size_t place) { intervals[place] = interval_of(problem, solution, errors, rise, place); });
   return intervals;

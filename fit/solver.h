@@ -9,6 +9,10 @@
 
 namespace gonio {
 
+/// kd, and ks of each lobe.
+inline constexpr std::size_t kMostLinear = 1 + LobeSum::kMostLobes;
+using Linear = std::array<double, kMostLinear>;
+
 /// Where one start ended.
 struct Solution {
   std::vector<double> x;
@@ -31,7 +35,7 @@ struct Linearised {
 
 /// A problem (which it refers to) made ready: its points, or some of them, in lanes.
 ///
-/// Least squares by Levenberg and Marquardt on the normal equations of [roughness …, kd, ks | residual], whose sums are all that a step
+/// Least squares by Levenberg and Marquardt on the normal equations of [roughness …, kd, ks … | residual], whose sums are all that a step
 /// needs of the points. kd and ks, of all wavelengths or of each, are eliminated from every step (Golub & Pereyra's variable
 /// projection, here as the Schur complement of their blocks: the same Gauss-Newton step, and good for metrics in which they are
 /// not linear); they stay >= 0 by an active set. The other parameters move in their logarithms, inside their boxes.
@@ -52,17 +56,28 @@ class LaneFit {
  private:
   friend class NormalEquations;
 
+  /// One of the lobes: what varies of it, in its own parameters (without n) and as places in roughness_ (n last), and R of its facets at
+  /// the points, or at each node of the aperture.
+  struct Lobe {
+    std::vector<std::size_t> varied, roughness;
+    std::vector<std::vector<DoubleLanes>> reflectance;
+  };
+
   const FitProblem& problem_;
   LanePoints points_;
-  std::vector<DoubleLanes> reflectance_;
-  std::vector<std::size_t> roughness_;              ///< places in x of what is not linear, n last
-  std::vector<std::size_t> varied_;                 ///< the same in the model's parameters, without n
-  std::vector<std::array<std::size_t, 2>> linear_;  ///< places in x of kd and ks of each block; kHeld where not free
-  std::array<double, 2> held_{0, 1};                ///< kd and ks where they are not free
-  std::vector<double> diffuse_;                     ///< f per kd of each of points_.groups
+  std::vector<LanePoints> nodes_;  ///< of the aperture
+  std::vector<Lobe> lobes_;
+  std::vector<std::size_t> roughness_;  ///< places in x of what is not linear, n last
+  /// Places in x of kd and ks of each block; kHeld where not free.
+  std::vector<std::array<std::size_t, kMostLinear>> linear_;
+  Linear held_{};                ///< kd and ks where they are not free
+  std::vector<double> diffuse_;  ///< f per kd of each of points_.groups
   static constexpr std::size_t kHeld = static_cast<std::size_t>(-1);
 
+  void find_places();
+  void open_aperture(std::span<const std::size_t> points);
   std::size_t block_of(const LaneGroup& group) const { return linear_.size() == 1 ? 0 : group.group; }
+  std::size_t linear_count() const { return 1 + lobes_.size(); }
 };
 
 /// From x, with all points.

@@ -112,7 +112,7 @@ struct Spectrum {
     }
     if (count == 0) return;
     scaled = triangle_of(scaled);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(scaled, Eigen::ComputeFullV);
     singular = svd.singularValues();
     v = svd.matrixV();
   }
@@ -193,6 +193,11 @@ Eigen::MatrixXd covariance_of(const FitProblem& problem, const Solution& solutio
 
 }  // namespace
 
+double residual_variance(const FitProblem& problem, const Solution& solution, double freedom) {
+  const double seen = std::max(2 * solution.cost / freedom, std::numeric_limits<double>::min());
+  return problem.metric == Metric::likelihood ? std::max(seen, 1.0) : seen;
+}
+
 Uncertainty uncertainty(const FitProblem& problem, const Solution& solution) {
   const std::size_t count = problem.free.size();
   const auto size = static_cast<Eigen::Index>(count);
@@ -210,10 +215,11 @@ Uncertainty uncertainty(const FitProblem& problem, const Solution& solution) {
   find_unseen(problem, solution, all, result);
   find_thin(problem, at.jacobian, result);
   const double freedom = static_cast<double>(problem.points.size()) - static_cast<double>(varying.places.size());
+  result.freedom = freedom;
   if (!(freedom > 0) || varying.places.empty()) return result;
   result.t95 = boost::math::quantile(boost::math::students_t(freedom), 0.975);
   // Correlations do not depend on the size of the errors: data without any still have them.
-  const double variance = std::max(2 * solution.cost / freedom, std::numeric_limits<double>::min());
+  const double variance = residual_variance(problem, solution, freedom);
   const Eigen::MatrixXd covariance = covariance_of(problem, solution, varying, variance, result);
   for (const Eigen::Index i : varying.places) {
     if (result.identifiable[static_cast<std::size_t>(i)])

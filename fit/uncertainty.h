@@ -17,9 +17,14 @@ struct Uncertainty {
   std::vector<bool> identifiable, at_bound;
   Eigen::MatrixXd correlation;  ///< 0 outside the diagonal where not identifiable
   double condition = 1;         ///< largest over smallest singular value
+  double freedom = 0;           ///< points less parameters inside their boxes
   double t95 = 0;               ///< Student's quantile for a two-sided 95 % interval; NaN without degrees of freedom
   std::vector<std::string> warnings;  ///< names what is determined only in combination
 };
+
+/// Of a residual: mean squared one of the fit; where residuals are in standard deviations (Metric::likelihood) not less than 1, so that a
+/// lucky sample does not narrow what is stated.
+double residual_variance(const FitProblem& problem, const Solution& solution, double freedom);
 
 Uncertainty uncertainty(const FitProblem& problem, const Solution& solution);
 

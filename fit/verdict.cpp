@@ -20,7 +20,7 @@ struct Tally {
 
   void add(const FitProblem& problem, const FitPoint& point, double fitted) {
     ++points;
-    squares += square(problem.compared(fitted, point) - problem.compared(point.f_per_sr, point));
+    squares += square((problem.compared(fitted, point) - problem.compared(point.f_per_sr, point)) * point.confidence);
     if (!(point.f_per_sr > 0)) return;
     ++positive;
     const double ratio = std::log10((fitted + problem.floor_per_sr) / (point.f_per_sr + problem.floor_per_sr));
@@ -66,8 +66,8 @@ double neighbour_correlation(const Prepared& prepared, const FitResult& result) 
   double products = 0, squares = 0, last = 0;
   for (std::size_t at = 0; at < order.size(); ++at) {
     const FitPoint& point = prepared.points[order[at]];
-    const double residual = prepared.problem.compared(result.points[order[at]].fitted_per_sr, point) -
-                            prepared.problem.compared(point.f_per_sr, point);
+    const double residual = point.confidence * (prepared.problem.compared(result.points[order[at]].fitted_per_sr, point) -
+                                                prepared.problem.compared(point.f_per_sr, point));
     if (at > 0 && result.points[order[at]].incidence == result.points[order[at - 1]].incidence)
       products += last * residual;
     squares += square(residual);
@@ -111,7 +111,7 @@ void say_what_is_missed(FitResult& result) {
       fmt::format("{} does not explain these data: model and measurement differ by a factor of {:.3g} (rms; rms_log10 "
                   "= {:.3g}); its "
                   "parameters are no measure of the surface",
-                  result.model.info().name, std::pow(10, result.all.rms_log10), result.all.rms_log10));
+                  result.model.name(), std::pow(10, result.all.rms_log10), result.all.rms_log10));
   const CoreAndTails parts = core_and_tails(result);
   std::string text;
   if (parts.core_points > 0 && std::abs(parts.core) > kOffset)
@@ -122,7 +122,7 @@ void say_what_is_missed(FitResult& result) {
     text += fmt::format("{}in the tails (below {} of it, {} points) {}{}", text.empty() ? "" : "; ", kTails,
                         parts.tail_points, text.empty() ? "the fit is on average " : "", factor(parts.tails));
   if (text.empty()) return;
-  if (parts.core_points > 0 && parts.tail_points > 0 && result.model.id != ModelId::lambert)
+  if (parts.core_points > 0 && parts.tail_points > 0 && !result.model.is_sum() && result.model.first().id != ModelId::lambert)
     text += ": a narrow core on long tails, which a single Gaussian lobe cannot follow";
   result.warnings.push_back(text);
 }
@@ -131,7 +131,8 @@ void say_what_is_missed(FitResult& result) {
 /// about a percent, which exact data show and measured data seldom do.
 void say_when_only_the_slope_counts(const Prepared& prepared, FitResult& result) {
   constexpr double kLargeG = 100;
-  if (result.model.id != ModelId::beckmann_kirchhoff || result.model.variant() != "exact") return;
+  if (result.model.is_sum() || result.model.first().id != ModelId::beckmann_kirchhoff) return;
+  if (result.model.variant() != "exact") return;
   if (!result.find("sigma_um")->identifiable) return;  // said already
   const BeckmannKirchhoff<double> kirchhoff{result.value("sigma_um"), result.value("correlation_um")};
   std::vector<double> g;

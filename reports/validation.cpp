@@ -32,7 +32,9 @@ Trial try_model(const Measurement& measurement, ModelId id, bool free_n, const V
   Trial trial;
   trial.name = fmt::format("{}{}", model(id).name, free_n ? ", n fitted" : "");
   FitRequest request;
-  request.model.id = id;
+  ModelSpec spec;
+  spec.id = id;
+  request.model = spec;
   request.free_n = free_n;
   request.starts = settings.starts;
   request.seed = settings.seed;
@@ -61,7 +63,7 @@ double judged_error(const FitResult& fit) { return fit.held_out ? fit.held_out->
 /// May it be taken? Not when it did not converge, nor when its parameters scale with a wavelength that is only assumed.
 bool eligible(const Trial& trial) {
   return trial.fit && trial.fit->converged &&
-         !(trial.fit->model.info().needs_wavelength && trial.fit->wavelength_nm.empty());
+         !(trial.fit->model.needs_wavelength() && trial.fit->wavelength_nm.empty());
 }
 
 /// The simplest of the models whose error is within kNoBetter of the least; of equally simple ones the most accurate.
@@ -127,7 +129,7 @@ std::string energy_svg(const MaterialReport& report) {
   for (const LimitRow& row : report.limits.rows) script += fmt::format("{} {} {}\n", row.theta_deg, row.total, row.e.value + row.coherent);
   script += "E\nplot 1 lw 2 dt 2 lc rgb '#b3261e' title 'limit (43)', $total using 1:2 with linespoints lw 2 pt 7 ps 0.4 lc rgb "
             "'#1f4e79' title 'kd ρ_d + ks E, worst wavelength'";
-  if (report.fit().model.id != ModelId::lambert)
+  if (report.fit().model.first().id != ModelId::lambert)
     script += ", $total using 1:3 with lines lw 2 dt 3 lc rgb '#e08a00' title 'E of the lobe alone (ks = 1)'";
   return gnuplot_svg(script + "\n", 680, 440);
 }
@@ -135,7 +137,7 @@ std::string energy_svg(const MaterialReport& report) {
 /// The fitted material with kd and ks times `scale`.
 SceneMaterial scaled_material(const FittedMaterial& fitted, double scale) {
   SceneMaterial material = scene_material("fitted", fitted, rendered_wavelengths(fitted));
-  const auto& parameters = fitted.model.info().parameters;
+  const auto& parameters = fitted.model.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].linear) material.values[i] *= scale;
   return material;
@@ -171,12 +173,12 @@ void render_one(MaterialReport& report, const FittedMaterial& material, double s
 
 void check_energy(MaterialReport& report, const FittedMaterial& material, const fs::path& folder, const ValidationSettings& settings) {
   say(settings, fmt::format("{}: energy conservation", report.id));
-  report.limits = conservation_limits(material.brdf(), sample(material), limit_angles_deg());
+  report.limits = conservation_limits(material.brdfs({}).front(), sample(material), limit_angles_deg());
   if (report.limits.worst_total > 1 + report.limits.worst_error) report.scale_to_limit = 1 / (report.limits.worst_total + report.limits.worst_error);
   write_file(folder / "limits.json", to_json(report.limits).dump(2) + "\n");
   write_file(folder / "table.csv", table_csv(report.limits));
-  if (report.fit().model.info().parameters.front().name == "m") {
-    ModelSpec spec = report.fit().model;
+  if (report.fit().model.parameters().front().name == "m") {
+    ModelSpec spec = report.fit().model.first();
     write_reflectance_table(make_reflectance_table(spec), folder / "lobe-table.exr");
   }
   write_file(folder / "energy.svg", energy_svg(report));
@@ -194,7 +196,7 @@ MaterialReport validate_measurement(const Measurement& measurement, const fs::pa
   choose(report);
   make_folder(folder);
   for (const Trial& trial : report.trials)
-    if (trial.fit) write_file(folder / fmt::format("fit-{}{}.json", trial.fit->model.info().name, trial.fit->index() ? "-n" : ""),
+    if (trial.fit) write_file(folder / fmt::format("fit-{}{}.json", trial.fit->model.name(), trial.fit->index() ? "-n" : ""),
                               to_json(*trial.fit).dump(2) + "\n");
   write_file(folder / "fit.json", to_json(report.fit()).dump(2) + "\n");
   for (const Plot& plot : write_plots(report.fit(), folder)) report.plots.push_back({plot.file, plot.caption});
@@ -208,7 +210,7 @@ MaterialReport validate_measurement(const Measurement& measurement, const fs::pa
 Json to_json(const MaterialReport& report) {
   const FitResult& fit = report.fit();
   return {{"measurement", report.id},
-          {"model", fit.model.info().name},
+          {"model", fit.model.name()},
           {"rms_log10", fit.all.rms_log10},
           {"held_out_rms_log10", fit.held_out ? Json(fit.held_out->rms_log10) : Json(nullptr)},
           {"warnings", fit.warnings},

@@ -22,10 +22,10 @@ struct Setting {
 
 Setting setting_of(const std::string& name) {
   FitRequest request;
-  request.model.id = model(name).id, request.material = "Au", request.hold_out = HoldOut::none;
-  const std::vector<double> truth = typical_values(request.model.info());
+  request.model = lobe_sum(name), request.material = "Au", request.hold_out = HoldOut::none;
+  const std::vector<double> truth = typical_values(request.model.first().info());
   FitResult result;
-  const Measurement scan = filled(planned_scan({}), request.model, truth, "Au", 0.02, 1);
+  const Measurement scan = filled(planned_scan({}), request.model.first(), truth, "Au", 0.02, 1);
   return {prepare(scan, request, result).problem, 0, 1};
 }
 

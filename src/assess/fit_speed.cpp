@@ -76,13 +76,13 @@ std::vector<double> typical_values(const ModelInfo& info) {
 
 FitSamples fit_samples(const FitCase& wanted) {
   FitRequest request;
-  request.model.id = model(wanted.model).id;
+  request.model = lobe_sum(wanted.model);
   request.metric = wanted.metric, request.material = "Au", request.hold_out = HoldOut::none;
   std::vector<double> wavelengths_nm;
   for (std::size_t w = 0; w < wanted.wavelengths; ++w)
     wavelengths_nm.push_back(wanted.wavelengths == 1 ? 550 : 400 + 300 * double(w) / double(wanted.wavelengths - 1));
-  const std::vector<double> values = typical_values(request.model.info());
-  FitSamples samples = ready(filled(hemisphere_scan(wanted.directions, wavelengths_nm), request.model, values, "Au",
+  const std::vector<double> values = typical_values(request.model.first().info());
+  FitSamples samples = ready(filled(hemisphere_scan(wanted.directions, wavelengths_nm), request.model.first(), values, "Au",
                                     wanted.noise, wanted.seed),
                              request);
   for (const FreeParameter& p : samples.problem.free) samples.truth.push_back(std::log(values[p.place]));

@@ -45,7 +45,7 @@ struct PointResidual {
     for (int i = 0; i < kParameters; ++i) values[i] = exp(x[i]);
     const Interface<T> surface{T(point->surface.n), T(point->surface.k), point->surface.perfect};
     const T f = values[kParameters - 2] / kPi<double> +
-                values[kParameters - 1] * lobe_of<T>(problem->model.id, values, *point, surface);
+                values[kParameters - 1] * lobe_of<T>(problem->model.first().id, values, *point, surface);
     residual[0] = (compared(*problem, f, *point) - measured) * point->confidence;
     return true;
   }
@@ -64,13 +64,13 @@ ceres::CostFunction* cost_of(const FitProblem& problem, const FitPoint& point, D
 }
 
 void refuse_others(const FitProblem& problem) {
-  const ModelId id = problem.model.id;
+  const ModelId id = problem.model.first().id;
   const bool known = id == ModelId::torrance_sparrow || id == ModelId::ggx || id == ModelId::beckmann_kirchhoff;
-  if (!known || problem.free.size() != problem.model.info().parameters.size() || problem.loss != Loss::none)
+  if (!known || problem.free.size() != problem.model.parameters().size() || problem.loss != Loss::none)
     throw input_error(
         "{}: not compared with Ceres; expected torrance-sparrow, ggx or beckmann-kirchhoff, every "
         "parameter free and shared",
-        problem.model.info().name);
+        problem.model.name());
 }
 
 }  // namespace

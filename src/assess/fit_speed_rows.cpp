@@ -60,7 +60,7 @@ FitBar one_model(const std::string& what, const FitSamples& samples, int starts)
 FitSpeedRow timed_fit(const std::string& size, const FitSamples& samples, int starts, int threads,
                       Derivatives derivatives, double tolerance, int repeats) {
   FitSpeedRow row{size,
-                  std::string(samples.problem.model.info().name),
+                  samples.problem.model.name(),
                   samples.problem.metric,
                   derivatives,
                   starts,

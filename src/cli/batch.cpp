@@ -277,7 +277,7 @@ std::vector<Task> tasks_of(const BatchArguments& a) {
       if (!names.insert(name).second)
         throw input_error("{}: two measurements have this name; expected one folder each", name);
       for (const std::string& model_name : a.models) {
-        model(model_name);  // refuses an unknown one
+        lobe_sum(model_name);  // refuses an unknown one
         tasks.push_back({path, fs::path(name) / model_name, name, model_name, {}, {}, nullptr});
       }
     }

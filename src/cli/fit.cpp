@@ -56,7 +56,7 @@ class Progress {
 };
 
 void print_card(const FitResult& result) {
-  std::cout << fmt::format("{} of {} ({})\n", result.model.info().name,
+  std::cout << fmt::format("{} of {} ({})\n", result.model.name(),
                            result.name.empty() ? result.measurement_id : result.name,
                            result.material  ? *result.material
                            : result.index() ? "n fitted"
@@ -87,7 +87,7 @@ void print_card(const FitResult& result) {
 void print_summary(const std::vector<FitResult>& results) {
   std::cout << fmt::format("\n{:<20} {:>12} {:>12} {:>12}\n", "model", "rms_log10", "held out", "converged");
   for (const FitResult& r : results)
-    std::cout << fmt::format("{:<20} {:>12.4g} {:>12} {:>12}\n", r.model.info().name, r.all.rms_log10,
+    std::cout << fmt::format("{:<20} {:>12.4g} {:>12} {:>12}\n", r.model.name(), r.all.rms_log10,
                              r.held_out ? fmt::format("{:.4g}", r.held_out->rms_log10) : "none",
                              r.converged ? "yes" : "no");
 }
@@ -98,11 +98,15 @@ void write_result(const FitResult& result, const std::filesystem::path& folder) 
   write_file(folder / "fit.json", to_json(result).dump(2) + "\n");
 }
 
+bool retro_of(const LobeSum& model) {
+  return std::any_of(model.lobes().begin(), model.lobes().end(), [](const ModelSpec& lobe) { return lobe.retro; });
+}
+
 Json choice_json(const ModelChoice& choice) {
   Json candidates = Json::array();
   for (const Candidate& c : choice.candidates)
-    candidates.push_back({{"model", c.result.model.info().name},
-                          {"retro", c.result.model.retro},
+    candidates.push_back({{"model", c.result.model.name()},
+                          {"retro", retro_of(c.result.model)},
                           {"parameters", c.parameters},
                           {"rms_log10", c.result.all.rms_log10},
                           {"held_out_rms_log10", c.held_out_log10},
@@ -122,8 +126,8 @@ std::string choice_csv(const ModelChoice& choice) {
   std::string csv =
       "model,retro,parameters,rms_log10,held_out_rms_log10,worse_than_best,standard_error,told_apart,aicc,bic\n";
   for (const Candidate& c : choice.candidates)
-    csv += fmt::format("{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.8g},{:.8g}\n", c.result.model.info().name,
-                       c.result.model.retro ? "yes" : "no", c.parameters, c.result.all.rms_log10, c.held_out_log10,
+    csv += fmt::format("{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.8g},{:.8g}\n", c.result.model.name(),
+                       retro_of(c.result.model) ? "yes" : "no", c.parameters, c.result.all.rms_log10, c.held_out_log10,
                        c.worse, c.uncertain, c.told_apart ? "yes" : "no", c.aicc, c.bic);
   return csv;
 }
@@ -135,13 +139,13 @@ void print_choice(const ModelChoice& choice) {
   const double bic = std::min_element(choice.candidates.begin(), choice.candidates.end(), [](auto& a, auto& b) {
                        return a.bic < b.bic;
                      })->bic;
-  std::cout << fmt::format("{:<32} {:>10} {:>10} {:>10} {:>22} {:>10} {:>10}\n", "model", "parameters", "rms_log10",
+  std::cout << fmt::format("{:<56} {:>10} {:>10} {:>10} {:>22} {:>10} {:>10}\n", "model", "parameters", "rms_log10",
                            "held out", "excess over the best", "AICc", "BIC");
   for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
     const Candidate& c = choice.candidates[i];
     std::cout << fmt::format(
-        "{:<32} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}\n",
-        fmt::format("{}{}", c.result.model.info().name, c.result.model.retro ? ", retro" : ""), c.parameters,
+        "{:<56} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}\n",
+        described(c.result.model), c.parameters,
         c.result.all.rms_log10, c.held_out_log10,
         i == choice.best ? std::string("best") : fmt::format("{:.2g} +- {:.2g}", c.worse, c.uncertain), c.aicc - aicc,
         c.bic - bic, i == choice.chosen ? "  <- chosen" : "");
@@ -155,7 +159,7 @@ void run_choice(const Measurement& scan, const FitArguments& arguments, Common& 
   if (!o.settings.empty() || !o.free.empty() || !o.variant.empty())
     throw input_error(
         "--model auto: takes no --set, --free or --variant, which are a model's own; expected it without");
-  const FitRequest request = request_for(o, "lambert", common.seed);
+  const FitRequest request = request_for(o, "lambert", common.seed, scan.aperture_deg);
   Progress progress("auto");
   const ModelChoice choice =
       choose_model(scan, request, all_candidates(scan),
@@ -182,7 +186,7 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
   if (wavelengths.size() < 2 || arguments.models.size() != 1 || arguments.models[0] == "auto")
     throw input_error("--by-wavelength: {} wavelengths and {} models; expected 2 or more wavelengths and one model",
                       wavelengths.size(), arguments.models.size());
-  const FitRequest request = request_for(arguments.options, arguments.models[0], common.seed);
+  const FitRequest request = request_for(arguments.options, arguments.models[0], common.seed, scan.aperture_deg);
   const std::filesystem::path out = arguments.out;
   Json json = Json::array();
   std::string csv;
@@ -217,17 +221,17 @@ void run_fit(const FitArguments& arguments, Common& common) {
   }
   std::vector<FitRequest> requests;
   for (const std::string& name : arguments.models)
-    requests.push_back(request_for(arguments.options, name, common.seed));
+    requests.push_back(request_for(arguments.options, name, common.seed, scan.aperture_deg));
   std::vector<FitResult> results;
   for (FitRequest& request : requests) {
-    Progress progress(std::string(request.model.info().name));
+    Progress progress(request.model.name());
     request.progress = [&progress](int done, int count) { progress(done, count); };
     results.push_back(fit(scan, request));
   }
   const std::filesystem::path out = arguments.out;
   Json json = Json::array();
   for (const FitResult& result : results) {
-    write_result(result, results.size() == 1 ? out : out / result.model.info().name);
+    write_result(result, results.size() == 1 ? out : out / result.model.name());
     json.push_back(to_json(result));
     if (!common.json) print_card(result);
     if (!result.converged) common.exit_code = 1;

@@ -17,18 +17,18 @@ void apply_setting(const std::string& setting, FitRequest& request) {
   const std::size_t equals = setting.find('=');
   if (equals == setting.npos) throw input_error("{}: no setting; expected name=value", setting);
   const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
-  if (name == "shadowing") return set_shadowing(request.model, value);
-  if (name == "variant") return set_variant(request.model, value);
-  if (name == "retro") return set_retro(request.model, value);
+  if (request.model.set(name, value)) return;
   const double number = number_in(value, name);
-  const auto& parameters = request.model.info().parameters;
-  const bool has_m = std::any_of(parameters.begin(), parameters.end(), [](auto& p) { return p.name == "m"; });
-  if (name == "alpha" && has_m) {
-    if (!request.held.emplace("m", number / std::sqrt(2.0)).second)
-      throw input_error("alpha: m is given too; expected one of the two");
+  const auto& parameters = request.model.parameters();
+  const auto has = [&](std::string_view wanted) {
+    return std::any_of(parameters.begin(), parameters.end(), [&](auto& p) { return p.name == wanted; });
+  };
+  if (name.starts_with("alpha") && !has(name) && has("m" + name.substr(5))) {  // alpha, or alpha_2 of a sum
+    if (!request.held.emplace("m" + name.substr(5), number / std::sqrt(2.0)).second)
+      throw input_error("{}: m is given too; expected one of the two", name);
     return;
   }
-  request.model.info().index_of(name);  // refuses an unknown one
+  request.model.index_of(name);  // refuses an unknown one
   if (!request.held.emplace(name, number).second)
     throw input_error("{}: given twice; expected once (alpha = sqrt(2) m)", name);
 }
@@ -42,12 +42,17 @@ void apply_hold_out(const std::string& text, FitRequest& request) {
 }  // namespace
 
 std::string FitOptions::words() const {
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", metric, loss, weighting, variant, hold_out, material, floor,
-                     intervals, fmt::join(settings, ","), fmt::join(free, ","), starts);
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", metric, loss, weighting, variant, hold_out, material,
+                     floor, intervals, aperture, source, noise, fmt::join(settings, ","), fmt::join(free, ","),
+                     fmt::join(spectral, ","), starts);
 }
 
 void add_fit_options(CLI::App& command, FitOptions& options) {
-  command.add_option("--metric", options.metric, "log, linear or cuberoot")->capture_default_str();
+  command.add_option("--metric", options.metric, "log, linear, cuberoot or likelihood (residuals in standard deviations)")
+      ->capture_default_str();
+  command.add_option("--noise", options.noise,
+                     "likelihood: standard deviation as a share of the value, 0.02 (default: as the scan states it, else "
+                     "from its repeats or reciprocal pairs)");
   command.add_option("--loss", options.loss, "none, huber or cauchy, with a width if it shall not be found: huber=0.1")
       ->capture_default_str();
   command.add_option("--weighting", options.weighting, "none (default of log) or cosine (default of the others)");
@@ -55,6 +60,13 @@ void add_fit_options(CLI::App& command, FitOptions& options) {
                      "shadowing=NAME, variant=NAME, retro=yes, or PARAMETER=VALUE to hold it");
   command.add_option("--variant", options.variant, "Variant of the model");
   command.add_option("--material", options.material, "Database id instead of the measurement's; `perfect` reflects 1");
+  command
+      .add_option("--per-wavelength", options.spectral,
+                  "kd, ks or kd,ks: a value for each wavelength, the lobe's shape shared by all")
+      ->delimiter(',');
+  command.add_option("--aperture", options.aperture,
+                     "Average the model over the detector's round aperture: full angle in degrees, or `stated`");
+  command.add_option("--source", options.source, "The same of the source's disc: full angle in degrees");
   command.add_option("--free", options.free, "n: fit the refractive index (k = 0) where no material is known");
   command.add_option(
       "--floor", options.floor,
@@ -70,9 +82,10 @@ void add_fit_options(CLI::App& command, FitOptions& options) {
       ->capture_default_str();
 }
 
-FitRequest request_for(const FitOptions& options, const std::string& model_name, std::uint64_t seed) {
+FitRequest request_for(const FitOptions& options, const std::string& model_name, std::uint64_t seed,
+                       std::optional<double> aperture_deg) {
   FitRequest request;
-  request.model.id = model(model_name).id;
+  request.model = lobe_sum(model_name);
   request.metric = metric_from(options.metric);
   const std::size_t equals = options.loss.find('=');
   request.loss = loss_from(options.loss.substr(0, equals));
@@ -82,13 +95,30 @@ FitRequest request_for(const FitOptions& options, const std::string& model_name,
   }
   if (!options.weighting.empty()) request.weighting = weighting_from(options.weighting);
   if (!options.floor.empty()) request.floor_per_sr = number_in(options.floor, "--floor");
-  if (!options.variant.empty()) set_variant(request.model, options.variant);
+  if (!options.variant.empty()) request.model.set("variant", options.variant);
   if (!options.material.empty()) request.material = options.material;
   for (const std::string& setting : options.settings) apply_setting(setting, request);
   for (const std::string& parameter : options.free) {
     if (parameter != "n") throw input_error("--free {}: cannot be freed; expected n", parameter);
     request.free_n = true;
   }
+  request.spectral = options.spectral;
+  if (!options.noise.empty()) {
+    request.relative_sd = number_in(options.noise, "--noise");
+    if (!(request.relative_sd > 0 && request.relative_sd < 10))
+      throw input_error("--noise {}: no share; expected more than 0, less than 10", options.noise);
+    if (request.metric != Metric::likelihood)
+      throw input_error("--noise {}: metric {} does not look at it; expected --metric likelihood", options.noise,
+                        options.metric);
+  }
+  if (options.aperture == "stated") {
+    if (!aperture_deg)
+      throw input_error("--aperture stated: the measurement states none; expected aperture_deg in measurement.yaml");
+    request.aperture.detector_deg = *aperture_deg;
+  } else if (!options.aperture.empty()) {
+    request.aperture.detector_deg = number_in(options.aperture, "--aperture");
+  }
+  if (!options.source.empty()) request.aperture.source_deg = number_in(options.source, "--source");
   apply_hold_out(options.hold_out, request);
   request.starts = options.starts;
   request.seed = seed;

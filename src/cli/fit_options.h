@@ -1,6 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace gonio::cli {
 /// How to fit, as the command line says it: what `fit` and `batch` share.
 struct FitOptions {
   std::string metric = "log", loss = "none", weighting, variant, hold_out = "middle", material, floor,
-              intervals = "curvature";
-  std::vector<std::string> settings, free;
+              intervals = "curvature", aperture, source, noise;
+  std::vector<std::string> settings, free, spectral;
   int starts = 16;
 
   std::string words() const;  ///< all of them, to tell one set of options from another
@@ -20,7 +21,8 @@ struct FitOptions {
 
 void add_fit_options(CLI::App& command, FitOptions& options);
 
-/// InputError for what no fit of that model can take.
-FitRequest request_for(const FitOptions& options, const std::string& model_name, std::uint64_t seed);
+/// InputError for what no fit of that model (a name, or a sum a+b) can take. `aperture_deg` is what the measurement states.
+FitRequest request_for(const FitOptions& options, const std::string& model_name, std::uint64_t seed,
+                       std::optional<double> aperture_deg = {});
 
 }  // namespace gonio::cli

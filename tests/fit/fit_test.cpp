@@ -160,9 +160,9 @@ TEST_CASE("what the data cannot tell apart is named", "[fit][slow]") {
     CHECK(warns(result, "rough limit (median g = "));
   }
   SECTION("the limit of large g: only sigma/T, exactly") {
-    set_variant(request.model, "rough-limit");
+    request.model.set("variant", "rough-limit");
     const FitResult result =
-        fit(synthetic(empty_scan(), request.model, std::vector<double>{1, 10, 0.05, 1}, perfect), request);
+        fit(synthetic(empty_scan(), request.model.first(), std::vector<double>{1, 10, 0.05, 1}, perfect), request);
     CHECK(warns(result, "only sigma_um/correlation_um = 0.1 is determined"));
     CHECK(result.value("sigma_um") / result.value("correlation_um") == Approx(0.1).epsilon(1e-6));
     CHECK(result.value("ks") == Approx(1).epsilon(1e-6));
@@ -248,18 +248,18 @@ TEST_CASE("the same seed gives the same fit for any number of threads", "[fit]")
 TEST_CASE("fit.json comes back as the material that was fitted", "[fit]") {
   const ModelSpec spec = spec_of("torrance-sparrow");
   FitRequest request = request_of("torrance-sparrow");
-  set_shadowing(request.model, "v-cavity");
+  request.model.set("shadowing", "v-cavity");
   request.material = "Au";
   const FitResult result =
       fit(synthetic(empty_scan(), spec, std::vector<double>{0.2, 0.1, 1}, perfect_interface<double>(), 0.05), request);
   const nlohmann::ordered_json json = to_json(result);
   const FittedMaterial back = parse_fit(json.dump(), "fit.json");
   CHECK(back.values == result.values());
-  CHECK(back.model.shadowing == Shadowing::v_cavity);
+  CHECK(back.model.first().shadowing == Shadowing::v_cavity);
   CHECK(back.material == "Au_Johnson");
   CHECK(back.wavelength({}) == 550);
   CHECK(back.wavelength(600) == 600);  // shared parameters, n and k from the database
-  CHECK(evaluate(back.brdf(), directions_from_deg(30.0, 30.0, 180.0), back.surface(550), 0.55) ==
+  CHECK(evaluate(back.brdfs({}).front(), directions_from_deg(30.0, 30.0, 180.0), back.surface(550), 0.55) ==
         predict(result, 30, std::array{30.0}, 180).front());
 
   const auto refused = [](const std::string& text) {

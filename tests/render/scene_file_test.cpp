@@ -126,7 +126,7 @@ TEST_CASE("every bundled scene can be read and says what it validates", "[scene]
 
 TEST_CASE("a fitted material renders where its fit speaks, and nowhere else", "[scene]") {
   FittedMaterial fitted;
-  fitted.model = {ModelId::torrance_sparrow};
+  fitted.model = ModelSpec{ModelId::torrance_sparrow};
   fitted.values = {0.2, 0.1, 0.9};
   fitted.wavelength_nm = {532};
   CHECK(scene_material("a", fitted, {532}).material == "perfect");

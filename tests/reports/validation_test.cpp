@@ -49,7 +49,7 @@ TEST_CASE("A material that breaks (43) is found, its number told, and rendered a
   const Folder out;
   const double m = 0.9, kd = 0.1, ks = 1;
   const MaterialReport report = validate_measurement(synthetic_scan(m, kd, ks), out.path / "synthetic", quick(0));
-  CHECK(report.fit().model.id == ModelId::pseudo_realistic);
+  CHECK(report.fit().model.first().id == ModelId::pseudo_realistic);
   CHECK(report.fit().value("m") == Approx(m).epsilon(1e-6));
   CHECK_FALSE(report.limits.holds());
   // E of the lobe at grazing lies between its values at m = 0.9 and 1 (1.149 at m = 1 and 89 degrees, PHYSICS).
