@@ -107,7 +107,7 @@ std::optional<FitEnergy> fit_energy(const Measurement& scan, const FitResult& re
     wavelengths.assign(few.begin(), few.end());
   }
   FitEnergy worst;
-  for (const double theta : few_of(scan.incidences_deg, 8))
+  for (const double theta : few_of(scan.incidences_deg, 4))
     for (const std::optional<double>& nm : wavelengths) {
       const Interface<double> surface = material.surface(nm);
       const double um = nm ? *nm * 1e-3 : 1;

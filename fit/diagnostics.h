@@ -44,7 +44,8 @@ struct FitEnergy {
   std::optional<double> wavelength_nm;
 };
 
-/// Up to 8 incidences and 3 wavelengths, E to 1e-4. None for a relative scan, or where a lobe's E is infinite.
+/// Up to 4 incidences (the first and the last among them) and 3 wavelengths, E to 1e-4. None for a relative scan, or
+/// where a lobe's E is infinite.
 std::optional<FitEnergy> fit_energy(const Measurement& measurement, const FitResult& result);
 
 /// What to ask of a fit before its numbers are used.
