@@ -60,10 +60,20 @@ struct LobeMixture {
   static UnitVector<T> turned(const UnitVector<T>& i) { return {-i.x, -i.y, i.z}; }
 };
 
+/// About what the two parts reflect, for the shares of samples.
+template <class T>
+struct PartEnergies {
+  T diffuse, lobe;
+};
+template <class T>
+PartEnergies<T> part_energies(const Brdf<T>& brdf, const T& r0) {
+  return {brdf.kd * (brdf.diffuse_times_r0() ? r0 : T(1)), brdf.ks * (brdf.facets() ? r0 : T(1))};
+}
+
 /// In proportion to the energies, diffuse against lobe, each at least a tenth so that neither is starved.
 template <class T>
 LobeMixture<T> lobe_mixture(const Brdf<T>& brdf, const T& r0, const T& wavelength_um) {
-  const T diffuse = brdf.kd * (brdf.diffuse_times_r0() ? r0 : T(1)), lobe = brdf.ks * (brdf.facets() ? r0 : T(1));
+  const auto [diffuse, lobe] = part_energies(brdf, r0);
   const bool density = !std::holds_alternative<Lambert>(brdf.lobe) && !std::holds_alternative<Mirror>(brdf.lobe);
   const auto lit = lobe > T(0);
   const T total = select(lit, T(diffuse + lobe), T(1));

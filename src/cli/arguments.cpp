@@ -30,9 +30,12 @@ Surface::Surface(const SurfaceArguments& arguments) {
 std::string Surface::name() const { return fixed_ ? fmt::format("n={} k={}", fixed_->n, fixed_->k) : material_.id(); }
 
 void ModelArguments::add_to(CLI::App& command) {
-  command.add_option("model", model, "Model name (see `gonio models`) or a fit.json")->required();
-  command.add_option("--set", settings, "Parameter or option, name=value; repeatable")->allow_extra_args(false);
-  command.add_option("--variant", variant, "Variant of the model (see `gonio models NAME`)");
+  command.add_option("model", model, "Model name (see `gonio models`), a sum NAME+NAME, or a fit.json")->required();
+  command
+      .add_option("--set", settings, "Parameter or option, name=value (of a sum's lobes name_1=value, …); repeatable")
+      ->allow_extra_args(false);
+  command.add_option("--variant", variant,
+                     "Variant of the model (see `gonio models NAME`); of a sum: --set variant_1=…");
 }
 
 double number_in(const std::string& text, std::string_view option) {
@@ -57,20 +60,22 @@ std::vector<double> number_list(const std::string& text, std::string_view option
 
 namespace {
 
-/// m and alpha name the same roughness of a Gaussian slope law; alpha sets both of alpha_x and alpha_y.
-void settle_alpha(std::map<std::string, double>& given, const ModelInfo& info) {
-  const auto alpha = given.find("alpha");
+/// m and alpha name the same roughness of a Gaussian slope law; alpha sets both of alpha_x and alpha_y. A sum's names end
+/// in the suffix of the lobe.
+void settle_alpha(std::map<std::string, double>& given, const ModelInfo& info, const std::string& suffix) {
+  const std::string name = "alpha" + suffix, x = "alpha_x" + suffix, y = "alpha_y" + suffix, m = "m" + suffix;
+  const auto alpha = given.find(name);
   if (alpha == given.end()) return;
   if (info.parameters.front().name == "alpha_x") {
-    if (given.contains("alpha_x") || given.contains("alpha_y"))
-      throw input_error("alpha: given beside alpha_x or alpha_y; expected alpha alone, or alpha_x and alpha_y");
-    given["alpha_x"] = given["alpha_y"] = alpha->second;
-    given.erase("alpha");
+    if (given.contains(x) || given.contains(y))
+      throw input_error("{0}: given beside {1} or {2}; expected {0} alone, or {1} and {2}", name, x, y);
+    given[x] = given[y] = alpha->second;
+    given.erase(name);
     return;
   }
   if (info.parameters.front().name != "m") return;
-  if (given.contains("m")) throw input_error("m and alpha: both given; expected exactly one (alpha = sqrt(2) m)");
-  given["m"] = alpha->second / std::sqrt(2.0);
+  if (given.contains(m)) throw input_error("{} and {}: both given; expected exactly one (alpha = sqrt(2) m)", m, name);
+  given[m] = alpha->second / std::sqrt(2.0);
   given.erase(alpha);
 }
 
@@ -83,7 +88,7 @@ std::optional<double> take(std::map<std::string, double>& given, const std::stri
 }
 
 void take_patch(ChosenModel& chosen, std::map<std::string, double>& given) {
-  if (chosen.spec.id != ModelId::beckmann_kirchhoff) return;
+  if (chosen.sum.is_sum() || chosen.sum.first().id != ModelId::beckmann_kirchhoff) return;
   chosen.patch_x_um = take(given, "patch_x_um");
   chosen.patch_y_um = take(given, "patch_y_um");
   if (chosen.patch_x_um.has_value() != chosen.patch_y_um.has_value())
@@ -92,40 +97,50 @@ void take_patch(ChosenModel& chosen, std::map<std::string, double>& given) {
     if (half && !(*half > 0 && *half <= 1e7)) throw input_error("patch_x_um={}: out of range; expected 0 to 1e7 um", *half);
 }
 
-}  // namespace
-
-ChosenModel choose_model(const ModelArguments& arguments) {
-  ChosenModel chosen;
-  const ModelInfo& info = model(arguments.model);
-  chosen.spec.id = info.id;
+/// The numbers among the settings; shadowing, variant and retro go to the lobes.
+std::map<std::string, double> numbers_of(const std::vector<std::string>& settings, LobeSum& sum) {
   std::map<std::string, double> given;
-  for (const std::string& setting : arguments.settings) {
+  for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) throw input_error("--set {}: has no `=`; expected name=value", setting);
     const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
-    if (name == "shadowing") {
-      set_shadowing(chosen.spec, value);
-      continue;
-    }
-    if (name == "retro") {
-      set_retro(chosen.spec, value);
-      continue;
-    }
+    if (sum.set(name, value)) continue;
     if (!given.emplace(name, number_in(value, "--set " + name)).second)
       throw input_error("--set {}: given twice; expected once", name);
   }
-  if (!arguments.variant.empty()) set_variant(chosen.spec, arguments.variant);
-  settle_alpha(given, info);
-  take_patch(chosen, given);
-  for (const auto& [name, value] : given) (void)info.index_of(name);
-  for (const ParameterInfo& p : info.parameters) {
+  return given;
+}
+
+std::vector<double> values_of(const std::map<std::string, double>& given, const LobeSum& sum) {
+  std::vector<double> values;
+  for (const ParameterInfo& p : sum.parameters()) {
     const auto found = given.find(std::string(p.name));
-    if (found == given.end() && !p.fallback)
-      throw input_error("{}: {} is missing; expected --set {}=VALUE ({} to {} {}){}", info.name, p.name, p.name, p.lo, p.hi,
-                        p.unit == "1" ? "" : p.unit, p.name == "m" ? " or alpha" : "");
-    chosen.values.push_back(found == given.end() ? *p.fallback : found->second);
+    if (found == given.end() && !p.fallback) {
+      const std::string_view alpha = p.name == "m" ? " or alpha" : "", unit = p.unit == "1" ? "" : p.unit;
+      throw input_error("{}: {} is missing; expected --set {}=VALUE ({} to {} {}){}", sum.name(), p.name, p.name, p.lo,
+                        p.hi, unit, alpha);
+    }
+    values.push_back(found == given.end() ? *p.fallback : found->second);
   }
-  check_values(chosen.spec, chosen.values);
+  return values;
+}
+
+}  // namespace
+
+ChosenModel choose_model(const ModelArguments& arguments) {
+  ChosenModel chosen{lobe_sum(arguments.model), {}, {}, {}};
+  LobeSum& sum = chosen.sum;
+  if (sum.is_sum() && !arguments.variant.empty())
+    throw input_error("--variant {}: of which lobe of {}; expected --set variant_1=NAME", arguments.variant,
+                      sum.name());
+  std::map<std::string, double> given = numbers_of(arguments.settings, sum);
+  if (!arguments.variant.empty()) sum.set("variant", arguments.variant);
+  for (std::size_t j = 0; j < sum.lobes().size(); ++j)
+    settle_alpha(given, sum.lobes()[j].info(), sum.is_sum() ? fmt::format("_{}", j + 1) : "");
+  take_patch(chosen, given);
+  for (const auto& [name, value] : given) (void)sum.index_of(name);
+  chosen.values = values_of(given, sum);
+  sum.check(chosen.values);
   return chosen;
 }
 

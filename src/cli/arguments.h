@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "brdf/brdf.h"
+#include "brdf/lobe_sum.h"
 #include "materials/database.h"
 
 namespace gonio::cli {
@@ -37,7 +37,7 @@ class Surface {
   std::optional<Interface<double>> fixed_;
 };
 
-/// MODEL with --set name=value …, --variant: a model and its values, checked against the model's box.
+/// MODEL, or a sum MODEL+MODEL, with --set name=value …, --variant: a model and its values, checked against its box.
 struct ModelArguments {
   std::string model;
   std::vector<std::string> settings;
@@ -47,9 +47,9 @@ struct ModelArguments {
 };
 
 struct ChosenModel {
-  ModelSpec spec;
-  std::vector<double> values;  ///< in the order of spec.info().parameters
-  std::optional<double> patch_x_um, patch_y_um;
+  LobeSum sum;
+  std::vector<double> values;                    ///< in the order of sum.parameters()
+  std::optional<double> patch_x_um, patch_y_um;  ///< of a single lobe
 };
 
 /// InputError for an unknown parameter, a missing roughness, both m and alpha, a value outside the box.

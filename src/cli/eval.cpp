@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -61,13 +62,13 @@ void run_eval(const EvalArguments& arguments, const Common& common) {
   const std::string text =
       from_stdin ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : read_file(arguments.input);
   const CsvTable table = read_csv(text, file);
-  const Brdf<double> brdf = make_brdf<double>(subject.model.spec, subject.model.values);
-  const std::vector<EvalRow> rows = eval_rows(table, file, transmits(brdf));
+  const std::vector<Brdf<double>> lobes = make_brdfs(subject.model.sum, subject.model.values);
+  const std::vector<EvalRow> rows = eval_rows(table, file, lobes.size() == 1 && transmits(lobes[0]));
 
   Json json_rows = Json::array();
   std::string out =
       fmt::format("{},f_r_per_sr{}\n", fmt::join(table.header, ","), request.mueller ? mueller_names(',') : "");
-  const bool delta = has_delta(brdf.lobe);
+  const bool delta = std::any_of(lobes.begin(), lobes.end(), [](const auto& one) { return has_delta(one.lobe); });
   for (const EvalRow& row : rows) {
     const double wavelength_nm = subject.wavelength_for(row.wavelength_nm ? row.wavelength_nm : arguments.at_nm);
     const EvalResult result = evaluate_row(subject, row, wavelength_nm, request);
@@ -83,8 +84,8 @@ void run_eval(const EvalArguments& arguments, const Common& common) {
     json_rows.push_back(one);
   }
   if (common.json) {
-    Json answer{{"model", subject.model.spec.info().name},
-                {"variant", subject.model.spec.variant()},
+    Json answer{{"model", subject.model.sum.name()},
+                {"variant", subject.model.sum.variant()},
                 {"material", subject.surface.name()},
                 {"precision", request.precision}};
     if (request.light) answer["polarisation"] = arguments.polarisation;
@@ -108,6 +109,9 @@ void add_eval(CLI::App& app, Common& common) {
       "side)[, phi_i_deg from the grain, for anisotropic lobes][, wavelength_nm];\nor unit vectors towards light and "
       "eye, ix,iy,iz,ox,oy,oz (z: normal).\nf_r is a BRDF in 1/sr, without cosine. Without --material the surface is "
       "`perfect`.\n"
+      "A sum of up to three lobes over one diffuse part: gonio eval ggx+phong-1975 --set alpha_1=0.3 --set n_2=40 "
+      "--set "
+      "kd=0.1 --set ks_2=0.5.\n"
       "rough-dielectric: with theta_o_deg above 90, up to 180, it is f_t of the transmitted radiance; n is that of the "
       "far over the near side.\n"
       "Polarised light: s = k x n, p = k x s for the propagation direction k and the mean normal n; --polarisation "

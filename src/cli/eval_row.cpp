@@ -45,9 +45,11 @@ double coherent_patch(const ChosenModel& chosen, const EvalRow& row, const Direc
          kirchhoff.coherent_patch(w, h_x, h_y, *chosen.patch_x_um, *chosen.patch_y_um, wavelength_um);
 }
 
-/// One row, its model and its surface, for each number type in turn.
+/// One row, one lobe of the model and its surface, for each number type in turn.
 struct Evaluation {
   const ChosenModel& chosen;
+  const ModelSpec& spec;
+  std::vector<double> values;  ///< the lobe's own
   const EvalRow& row;
   Interface<double> surface;
   double wavelength_um;
@@ -81,19 +83,19 @@ struct Evaluation {
 double unpolarised(const Evaluation& e, const std::string& precision) {
   const EvalRow& row = e.row;
   if (precision == "reference" && row.vectors)
-    return reference_value(e.chosen.spec, e.chosen.values, row.vectors->i, row.vectors->o, e.surface, e.wavelength_um);
+    return reference_value(e.spec, e.values, row.vectors->i, row.vectors->o, e.surface, e.wavelength_um);
   if (precision == "reference" && !row.transmitted())
-    return reference_evaluate(e.chosen.spec, e.chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, e.surface,
+    return reference_evaluate(e.spec, e.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, e.surface,
                               e.wavelength_um, row.phi_i_deg)
         .value;
   if (precision == "reference")
-    return reference_polarised(e.chosen.spec, e.chosen.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, e.surface,
+    return reference_polarised(e.spec, e.values, row.theta_i_deg, row.theta_o_deg, row.phi_deg, e.surface,
                                e.wavelength_um)
         .mueller.m[0][0];
   if (precision == "double")
     return row.transmitted() ? evaluate_transmission(e.brdf, e.i(), e.o(), e.surface)
                              : evaluate(e.brdf, e.above(), e.surface, e.wavelength_um);
-  const auto lanes = spread_brdf<FloatLanes>(e.chosen.spec, e.chosen.values);
+  const auto lanes = spread_brdf<FloatLanes>(e.spec, e.values);
   const auto surface = spread<FloatLanes>(e.surface);
   if (row.transmitted())
     return evaluate_transmission(lanes, spread<FloatLanes>(e.i()), spread<FloatLanes>(e.o()), surface).get(0);
@@ -118,7 +120,7 @@ PolarisedValue first_lane(const Mueller<FloatLanes>& lanes, const FloatLanes& li
 }
 
 PolarisedValue in_float(const Evaluation& e, const LinearLight<double>& light) {
-  const auto lanes = spread_brdf<FloatLanes>(e.chosen.spec, e.chosen.values);
+  const auto lanes = spread_brdf<FloatLanes>(e.spec, e.values);
   const auto surface = spread<FloatLanes>(e.surface);
   const auto azimuth = spread<FloatLanes>(e.azimuth());
   const auto all = [](double x) { return FloatLanes(float(x)); };
@@ -137,8 +139,8 @@ PolarisedValue in_float(const Evaluation& e, const LinearLight<double>& light) {
 PolarisedValue polarised(const Evaluation& e, const std::string& precision, const LinearLight<double>& light) {
   if (precision == "double") return in_double(e, light);
   if (precision == "float") return in_float(e, light);
-  return reference_polarised(e.chosen.spec, e.chosen.values, e.row.theta_i_deg, e.row.theta_o_deg, e.row.phi_deg,
-                             e.surface, e.wavelength_um, e.row.phi_i_deg, light, e.patch());
+  return reference_polarised(e.spec, e.values, e.row.theta_i_deg, e.row.theta_o_deg, e.row.phi_deg, e.surface,
+                             e.wavelength_um, e.row.phi_i_deg, light, e.patch());
 }
 
 void check_polarisation(const Evaluation& e) {
@@ -147,7 +149,7 @@ void check_polarisation(const Evaluation& e) {
   if (states_polarisation(e.brdf) || e.brdf.ks == 0) return;
   throw input_error(
       "{}{}: does not state what becomes of polarisation; expected a faceted model (R of its facets), not turned back",
-      e.chosen.spec.info().name, e.brdf.retro ? " with retro=yes" : "");
+      e.spec.info().name, e.brdf.retro ? " with retro=yes" : "");
 }
 
 void check_transparent(const Evaluation& e) {
@@ -195,6 +197,33 @@ std::vector<EvalRow> vector_rows(const CsvTable& table, const std::string& file)
   return rows;
 }
 
+/// What one lobe adds.
+EvalResult evaluate_one(const Evaluation& e, const EvalRequest& request) {
+  if (e.row.transmitted()) check_transparent(e);
+  const double cos_i = cos_deg(e.row.theta_i_deg);
+  EvalResult result{0, coherent_energy(e.brdf, cos_i, e.surface, e.wavelength_um), std::nullopt};
+  if (!request.light && !request.mueller) {
+    result.f_r_per_sr = unpolarised(e, request.precision) + e.patch();
+    return result;
+  }
+  check_polarisation(e);
+  const PolarisedValue values = polarised(e, request.precision, request.light.value_or(LinearLight<double>{1, 0}));
+  if (request.mueller) result.mueller = values.mueller;
+  result.f_r_per_sr = request.light ? values.linear : values.mueller.m[0][0];
+  if (request.light)
+    result.coherent_energy = (coherent_mueller(e.brdf, cos_i, e.surface, e.wavelength_um) * request.light->stokes())[0];
+  return result;
+}
+
+void add_to(std::optional<Mueller<double>>& sum, const std::optional<Mueller<double>>& one) {
+  if (!sum || !one) {
+    if (one) sum = one;
+    return;
+  }
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) sum->m[r][c] += one->m[r][c];
+}
+
 }  // namespace
 
 std::vector<EvalRow> eval_rows(const CsvTable& table, const std::string& file, bool transmits) {
@@ -233,22 +262,20 @@ LinearLight<double> linear_light(const std::string& text) {
 }
 
 EvalResult evaluate_row(const Subject& subject, const EvalRow& row, double wavelength_nm, const EvalRequest& request) {
-  const Evaluation e{subject.model, row, subject.surface.at(wavelength_nm), wavelength_nm / 1000,
-                     make_brdf<double>(subject.model.spec, subject.model.values)};
-  if (row.transmitted()) check_transparent(e);
-  const double cos_i = cos_deg(row.theta_i_deg);
-  EvalResult result{0, coherent_energy(e.brdf, cos_i, e.surface, e.wavelength_um), std::nullopt};
-  if (!request.light && !request.mueller) {
-    result.f_r_per_sr = unpolarised(e, request.precision) + e.patch();
-    return result;
+  const LobeSum& sum = subject.model.sum;
+  const std::vector<double> values = subject.values_at(wavelength_nm);
+  const Interface<double> surface = subject.surface.at(wavelength_nm);
+  EvalResult total;
+  for (std::size_t j = 0; j < sum.lobes().size(); ++j) {
+    const std::vector<double> own = sum.values_of(j, values);
+    const Brdf<double> brdf = make_brdf<double>(sum.lobes()[j], own);
+    const EvalResult one =
+        evaluate_one({subject.model, sum.lobes()[j], own, row, surface, wavelength_nm / 1000, brdf}, request);
+    total.f_r_per_sr += one.f_r_per_sr;
+    total.coherent_energy += one.coherent_energy;
+    add_to(total.mueller, one.mueller);
   }
-  check_polarisation(e);
-  const PolarisedValue values = polarised(e, request.precision, request.light.value_or(LinearLight<double>{1, 0}));
-  if (request.mueller) result.mueller = values.mueller;
-  result.f_r_per_sr = request.light ? values.linear : values.mueller.m[0][0];
-  if (request.light)
-    result.coherent_energy = (coherent_mueller(e.brdf, cos_i, e.surface, e.wavelength_um) * request.light->stokes())[0];
-  return result;
+  return total;
 }
 
 }  // namespace gonio::cli

@@ -37,11 +37,11 @@ LinearLight<double> linear_light(const std::string& text);
 
 /// `mueller` is 1/sr, empty unless asked for; f_r is of the light asked for (f_t for a transmitted row).
 struct EvalResult {
-  double f_r_per_sr, coherent_energy;
+  double f_r_per_sr = 0, coherent_energy = 0;
   std::optional<Mueller<double>> mueller;
 };
 
-/// InputError where polarisation is asked of a row of vectors or of a model that does not state it, or transmission of an opaque surface.
+/// The lobes of a sum are evaluated one by one and added. InputError where polarisation is asked of a row of vectors or of a lobe that does not state it, or transmission of an opaque surface.
 EvalResult evaluate_row(const Subject& subject, const EvalRow& row, double wavelength_nm, const EvalRequest& request);
 
 }  // namespace gonio::cli

@@ -32,10 +32,10 @@ std::vector<double> wavelengths_of(const Subject& subject, std::vector<double> a
     for (double& nm : asked) nm = subject.wavelength_for(nm);
     return asked;
   }
-  const bool database = subject.surface.needs_wavelength(),
-             depends = database || subject.model.spec.info().needs_wavelength;
-  if (!depends) return {550};
-  if (subject.fitted && !database && !subject.fitted->wavelength_nm.empty()) return subject.fitted->wavelength_nm;
+  const bool database = subject.surface.needs_wavelength();
+  if (!subject.needs_wavelength()) return {550};
+  if (subject.fitted && (!database || subject.is_spectral()) && !subject.fitted->wavelength_nm.empty())
+    return subject.fitted->wavelength_nm;
   const double lo = database ? subject.surface.material().range_lo_nm() : 0,
                hi = database ? subject.surface.material().range_hi_nm() : 1e9;
   std::vector<double> all;
@@ -47,9 +47,11 @@ std::vector<double> wavelengths_of(const Subject& subject, std::vector<double> a
 }
 
 ExportSource source_of(const Subject& subject, const std::vector<double>& asked_nm) {
-  ExportSource source{
-      subject.model.spec, subject.model.values, wavelengths_of(subject, asked_nm), {}, subject.surface.name()};
-  for (const double nm : source.wavelengths_nm) source.surfaces.push_back(subject.surface.at(nm));
+  ExportSource source{subject.model.sum, {}, wavelengths_of(subject, asked_nm), {}, subject.surface.name()};
+  for (const double nm : source.wavelengths_nm) {
+    source.surfaces.push_back(subject.surface.at(nm));
+    if (subject.is_spectral() || source.values.empty()) source.values.push_back(subject.values_at(nm));
+  }
   return source;
 }
 
@@ -95,7 +97,8 @@ void add_export(CLI::App& app, Common& common) {
       "rgl: a .bsdf table of the RGL database's kind, which Mitsuba's and pbrt's `measured` materials read.\n"
       "mitsuba: a <bsdf> of Mitsuba 3: diffuse, roughconductor (ggx, beckmann) or a blend of both. pbrt: a Material of "
       "pbrt-v4: diffuse, conductor\n"
-      "(GGX) or a mix. Other models become `measured`, with the table beside the file (same name, .bsdf).\n"
+      "(GGX) or a mix. Other models, sums of lobes, and kd or ks that differ between wavelengths become `measured`, "
+      "with the table beside the file (same name, .bsdf).\n"
       "A header states rms log10 and Delta E 2000 of what the renderer evaluates against gonio's own. Models with a "
       "delta, or that\n"
       "transmit, are refused.");

@@ -23,7 +23,7 @@ UnitVector<double> direction_deg(double theta, double phi) {
 }
 
 double value_of_parameter(const ExportSource& source, std::string_view name) {
-  return source.values[source.spec.info().index_of(name)];
+  return source.values[0][source.model.index_of(name)];
 }
 
 /// The lobe in the terms of Mitsuba and pbrt, where it is one of theirs.
@@ -37,24 +37,24 @@ bool smith(Shadowing shadowing) {
 
 /// Empty: no microfacets of Beckmann or GGX with Smith's shadowing and Fresnel's F.
 std::optional<Microfacets> microfacets_of(const ExportSource& source) {
-  if (source.spec.retro || !smith(source.spec.shadowing)) return {};
-  const bool two_widths = source.spec.id == ModelId::ggx || source.spec.id == ModelId::beckmann;
+  const ModelSpec& spec = source.model.first();
+  if (spec.retro || !smith(spec.shadowing)) return {};
+  const bool two_widths = spec.id == ModelId::ggx || spec.id == ModelId::beckmann;
   if (two_widths)
-    return Microfacets{source.spec.id == ModelId::ggx, value_of_parameter(source, "alpha_x"),
+    return Microfacets{spec.id == ModelId::ggx, value_of_parameter(source, "alpha_x"),
                        value_of_parameter(source, "alpha_y")};
-  if (source.spec.id != ModelId::torrance_sparrow) return {};
-  const auto form = static_cast<FacetForm>(source.spec.form);
+  if (spec.id != ModelId::torrance_sparrow) return {};
+  const auto form = static_cast<FacetForm>(spec.form);
   if (form == FacetForm::schlick || form == FacetForm::schlick_d || form == FacetForm::schlick_f ||
       form == FacetForm::schlick_g)
     return {};
-  const double alpha = kSqrt2<double> * source.values[0];
+  const double alpha = kSqrt2<double> * source.values[0][0];
   return Microfacets{false, alpha, alpha};
 }
 
-double kd_of(const ExportSource& source) {
-  return source.values[source.values.size() - (source.spec.id == ModelId::lambert ? 1 : 2)];
-}
-double ks_of(const ExportSource& source) { return source.spec.id == ModelId::lambert ? 0 : source.values.back(); }
+bool is_lambert(const ExportSource& source) { return source.model.first().id == ModelId::lambert; }
+double kd_of(const ExportSource& source) { return value_of_parameter(source, "kd"); }
+double ks_of(const ExportSource& source) { return is_lambert(source) ? 0 : value_of_parameter(source, "ks"); }
 
 /// "400:1.2, 500:1.1"
 std::string spectrum(const ExportSource& source, double Interface<double>::*part, const char* between,
@@ -122,8 +122,9 @@ BrdfOfPair blended(const BrdfOfPair& first, const BrdfOfPair& second, double sha
 
 /// Empty: only a table can say it.
 std::optional<Scene> mitsuba_scene(const ExportSource& source) {
+  if (!source.is_one_lobe()) return {};
   const double kd = kd_of(source), ks = ks_of(source);
-  if (source.spec.id == ModelId::lambert) return kd <= 1 ? std::optional(mitsuba_diffuse(kd)) : std::nullopt;
+  if (is_lambert(source)) return kd <= 1 ? std::optional(mitsuba_diffuse(kd)) : std::nullopt;
   const auto m = microfacets_of(source);
   if (!m || std::min(m->alpha_x, m->alpha_y) < 1e-4 || !(kd < 1) || !(ks > 0))
     return {};  // Mitsuba holds widths at 1e-4
@@ -160,9 +161,10 @@ std::string pbrt_grey(double value) {
 
 /// pbrt's metals have no scale: it is a share of a mixture, the rest of which is diffuse (or black).
 std::optional<Scene> pbrt_scene(const ExportSource& source) {
+  if (!source.is_one_lobe()) return {};
   const double kd = kd_of(source), ks = ks_of(source);
   const BrdfOfPair white = [](const auto&, const auto&, std::size_t) { return 1 / kPi<double>; };
-  if (source.spec.id == ModelId::lambert) {
+  if (is_lambert(source)) {
     if (kd > 1) return {};
     return Scene{"Material \"diffuse\" " + pbrt_grey(kd) + "\n", "diffuse", blended(white, white, 1 - kd)};
   }
@@ -187,17 +189,22 @@ std::optional<Scene> pbrt_scene(const ExportSource& source) {
 /// The largest share of the light that goes into a delta in the mirror direction, which no function of a pair of directions holds.
 /// InputError where it is more than a hundredth, or where light is transmitted.
 double delta_left_out(const ExportSource& source) {
-  const Brdf<double> brdf = make_brdf<double>(source.spec, source.values);
-  if (transmits(brdf))
-    throw input_error("{}: transmits light; expected a model that only reflects", source.spec.info().name);
   double most = 0;
-  for (std::size_t w = 0; w < source.surfaces.size(); ++w)
-    for (const double cos_i : {1.0, 0.5, 0.25, 0.1})
-      most = std::max(most, coherent_energy(brdf, cos_i, source.surfaces[w], source.wavelengths_nm[w] * 1e-3));
+  for (std::size_t w = 0; w < source.surfaces.size(); ++w) {
+    const std::vector<Brdf<double>> lobes = make_brdfs(source.model, source.values_at(w));
+    if (std::any_of(lobes.begin(), lobes.end(), transmits<double>))
+      throw input_error("{}: transmits light; expected a model that only reflects", source.model.name());
+    for (const double cos_i : {1.0, 0.5, 0.25, 0.1}) {
+      double coherent = 0;
+      for (const Brdf<double>& lobe : lobes)
+        coherent += coherent_energy(lobe, cos_i, source.surfaces[w], source.wavelengths_nm[w] * 1e-3);
+      most = std::max(most, coherent);
+    }
+  }
   constexpr double kMost = 0.01;
   if (most > kMost)
     throw input_error("{}: sends {:.3g} of the light into a delta in the mirror direction; expected at most {}",
-                      source.spec.info().name, most, kMost);
+                      source.model.name(), most, kMost);
   return most;
 }
 
@@ -228,21 +235,27 @@ std::string without_double_dash(std::string text) {
 }  // namespace
 
 BrdfOfPair ExportSource::f() const {
-  return [brdf = make_brdf<double>(spec, values), surfaces = surfaces, nm = wavelengths_nm](
-             const auto& i, const auto& o, std::size_t w) {
-    return evaluate(brdf, reduce(i.x, i.y, i.z, o.x, o.y, o.z), surfaces[w], nm[w] * 1e-3);
+  std::vector<std::vector<Brdf<double>>> lobes;
+  for (std::size_t w = 0; w < surfaces.size(); ++w) lobes.push_back(make_brdfs(model, values_at(w)));
+  return [lobes, surfaces = surfaces, nm = wavelengths_nm](const auto& i, const auto& o, std::size_t w) {
+    return evaluate(std::span<const Brdf<double>>(lobes[w]), reduce(i.x, i.y, i.z, o.x, o.y, o.z), surfaces[w],
+                    nm[w] * 1e-3);
   };
 }
 
 std::string ExportSource::described() const {
-  const ModelInfo& info = spec.info();
-  std::string text = fmt::format("gonio {}", info.name);
-  if (spec.form != 0) text += fmt::format(", variant {}", spec.variant());
-  if (!info.shadowings.empty()) text += fmt::format(", shadowing {}", name_of(spec.shadowing));
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const ParameterInfo& parameter = info.parameters[k];
-    text += fmt::format(", {} {:.9g}{}{}", parameter.name, values[k], parameter.unit == "1" ? "" : " ",
-                        parameter.unit == "1" ? "" : parameter.unit);
+  std::string text = fmt::format("gonio {}", model.name());
+  for (const ModelSpec& spec : model.lobes()) {
+    if (spec.form != 0) text += fmt::format(", variant {}", spec.variant());
+    if (!spec.info().shadowings.empty()) text += fmt::format(", shadowing {}", name_of(spec.shadowing));
+  }
+  for (std::size_t k = 0; k < model.parameters().size(); ++k) {
+    const ParameterInfo& parameter = model.parameters()[k];
+    text += fmt::format(", {} {:.9g}", parameter.name, values[0][k]);
+    const auto differs = [&](const std::vector<double>& list) { return list[k] != values[0][k]; };
+    if (std::any_of(values.begin(), values.end(), differs))
+      for (std::size_t w = 1; w < values.size(); ++w) text += fmt::format(" {:.9g}", values[w][k]);
+    if (parameter.unit != "1") text += fmt::format(" {}", parameter.unit);
   }
   return text + fmt::format(", {}, at {} nm", material, fmt::join(wavelengths_nm, " "));
 }

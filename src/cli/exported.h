@@ -4,18 +4,23 @@
 #include <vector>
 
 #include "assess/sphere_difference.h"
-#include "brdf/brdf.h"
+#include "brdf/lobe_sum.h"
 
 namespace gonio::cli {
 
 /// What is exported: a model with its surface at each wavelength.
 struct ExportSource {
-  ModelSpec spec;
-  std::vector<double> values;
+  LobeSum model;
+  std::vector<std::vector<double>> values;  ///< one list for all wavelengths, or one for each (kd or ks differ)
   std::vector<double> wavelengths_nm;       ///< increasing, at least one
   std::vector<Interface<double>> surfaces;  ///< at each of them
   std::string material;                     ///< for the header
 
+  /// Whether one model with one list of values says it: else only a table can.
+  bool is_one_lobe() const { return !model.is_sum() && values.size() == 1; }
+  const std::vector<double>& values_at(std::size_t wavelength) const {
+    return values[values.size() > 1 ? wavelength : 0];
+  }
   BrdfOfPair f() const;
   /// Model, variant, parameters, material, wavelengths: one line.
   std::string described() const;

@@ -17,7 +17,7 @@ Subject published_subject(const ModelArguments& model, const SurfaceArguments& s
   const PublishedFit fit = published_fit(std::string_view(model.model).substr(kPublished.size()));
   SurfaceArguments index;
   if (!fit.surface.perfect) index.n = fit.surface.n;
-  return {{fit.spec, fit.values, {}, {}}, Surface(index), std::nullopt};
+  return {{LobeSum(fit.spec), fit.values, {}, {}}, Surface(index), std::nullopt};
 }
 
 bool is_fit_file(const std::string& name) { return name.ends_with(".json"); }
@@ -29,14 +29,51 @@ Surface surface_of(const FittedMaterial& fitted) {
   return Surface(arguments);
 }
 
+constexpr double kStep_nm = 5;
+
+/// From the first to the last wavelength of the fit, with all of them: n and k are curved in between.
+std::vector<double> spectral_wavelengths(const FittedMaterial& fitted) {
+  std::vector<double> all = fitted.wavelength_nm;
+  for (double nm = all.front() + kStep_nm; nm < fitted.wavelength_nm.back(); nm += kStep_nm) all.push_back(nm);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::vector<double> visible_wavelengths_of(const Surface& surface) {
+  const bool database = surface.needs_wavelength();
+  const double lo = std::max(360.0, database ? surface.material().range_lo_nm() : 0.0);
+  const double hi = std::min(830.0, database ? surface.material().range_hi_nm() : 830.0);
+  if (!(lo <= hi)) throw input_error("{}: has no data between 360 and 830 nm; expected --at NM", surface.name());
+  std::vector<double> all;
+  for (double nm = lo; nm < hi; nm += kStep_nm) all.push_back(nm);
+  all.push_back(hi);
+  return all;
+}
+
+std::vector<double> sampled_wavelengths(const Subject& subject, std::optional<double> at_nm) {
+  if (at_nm || !subject.needs_wavelength()) return {subject.wavelength_for(at_nm)};
+  if (subject.is_spectral()) return spectral_wavelengths(*subject.fitted);
+  if (subject.fitted && !subject.surface.needs_wavelength()) return {subject.wavelength_for(at_nm)};
+  return visible_wavelengths_of(subject.surface);
+}
+
 }  // namespace
+
+std::vector<double> Subject::values_at(double wavelength_nm) const {
+  return fitted ? fitted->values_at(wavelength_nm) : model.values;
+}
+
+bool Subject::needs_wavelength() const {
+  return surface.needs_wavelength() || model.sum.needs_wavelength() || is_spectral();
+}
 
 double Subject::wavelength_for(std::optional<double> asked_nm) const {
   if (asked_nm && !(*asked_nm > 0 && *asked_nm < 1e7)) throw input_error("--at {}: out of range; expected a wavelength in nm", *asked_nm);
   if (fitted) return fitted->wavelength(asked_nm).value_or(0);
   if (asked_nm) return *asked_nm;
-  if (model.spec.info().needs_wavelength || surface.needs_wavelength())
-    throw input_error("{}: no wavelength; expected --at NM or a column wavelength_nm", model.spec.info().name);
+  if (needs_wavelength())
+    throw input_error("{}: no wavelength; expected --at NM or a column wavelength_nm", model.sum.name());
   return 0;
 }
 
@@ -50,25 +87,13 @@ Subject make_subject(const ModelArguments& model, const SurfaceArguments& surfac
 }
 
 SurfaceSamples sample_surface(const Subject& subject, std::optional<double> at_nm) {
-  const bool database = subject.surface.needs_wavelength(), depends = database || subject.model.spec.info().needs_wavelength;
-  const bool one_only = at_nm || !depends || (subject.fitted && !database);
-  std::vector<double> wavelengths;
-  if (one_only) {
-    wavelengths.push_back(subject.wavelength_for(at_nm));
-  } else {
-    const double lo = std::max(360.0, database ? subject.surface.material().range_lo_nm() : 0.0);
-    const double hi = std::min(830.0, database ? subject.surface.material().range_hi_nm() : 830.0);
-    if (!(lo <= hi)) throw input_error("{}: has no data between 360 and 830 nm; expected --at NM", subject.surface.name());
-    for (double nm = lo; nm < hi; nm += 5) wavelengths.push_back(nm);
-    wavelengths.push_back(hi);
-  }
   SurfaceSamples samples;
-  samples.wavelength_nm = wavelengths;
-  for (const double nm : wavelengths) {
+  samples.wavelength_nm = sampled_wavelengths(subject, at_nm);
+  for (const double nm : samples.wavelength_nm) {
     samples.surface.interfaces.push_back(subject.surface.at(nm));
     samples.surface.wavelength_um.push_back(nm > 0 ? nm / 1000 : 0.55);
   }
-  if (!depends) samples.wavelength_nm = {0};
+  if (!subject.needs_wavelength()) samples.wavelength_nm = {0};
   return samples;
 }
 

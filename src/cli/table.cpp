@@ -1,5 +1,8 @@
+#include "energy/table.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -8,7 +11,6 @@
 #include "cli/commands.h"
 #include "cli/subject.h"
 #include "energy/limits_json.h"
-#include "energy/table.h"
 
 namespace gonio::cli {
 namespace {
@@ -24,45 +26,83 @@ struct TableArguments {
 
 Json limits_json(Limits limits, const Subject& subject, const std::vector<LimitRow>& rows) {
   limits.rows = rows;
-  Json json{{"model", subject.model.spec.info().name}, {"material", subject.surface.name()}};
+  Json json{{"model", subject.model.sum.name()}, {"material", subject.surface.name()}};
   json.update(to_json(limits));
   return json;
 }
 
+/// "kd = 0.1", "ks_1 = 0.3, ks_2 = 0.5"; where the wavelengths differ "kd = 0.1 to 0.4". lambert has ks = 0.
+std::string linear_values(const Subject& subject, std::string_view kind) {
+  const auto& parameters = subject.model.sum.parameters();
+  std::string text;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (!parameters[p].name.starts_with(kind)) continue;
+    text += fmt::format("{}{} = ", text.empty() ? "" : ", ", parameters[p].name);
+    const bool shared = !subject.is_spectral() || subject.fitted->by_wavelength[p].empty();
+    if (shared) {
+      text += fmt::format("{:g}", subject.model.values[p]);
+    } else {
+      const auto [least, most] = std::ranges::minmax(subject.fitted->by_wavelength[p]);
+      text += fmt::format("{:g} to {:g}", least, most);
+    }
+  }
+  return text.empty() ? fmt::format("{} = 0", kind) : text;
+}
+
 void print_limits(const Limits& limits, const Subject& subject, const std::vector<LimitRow>& rows) {
-  const Brdf<double> brdf = make_brdf<double>(subject.model.spec, subject.model.values);
   const bool spectral = limits.range_lo_nm > 0;
-  fmt::print("{} on {}{}\n", subject.model.spec.info().name, subject.surface.name(),
-             !spectral ? "" : limits.range_lo_nm == limits.range_hi_nm
-                                  ? fmt::format(" at {:g} nm", limits.range_lo_nm)
-                                  : fmt::format(", {:g}-{:g} nm (worst wavelength at each angle)", limits.range_lo_nm, limits.range_hi_nm));
-  fmt::print("{:>10} {:>12} {:>10}{}\n", "theta_deg", "E (ks = 1)", "error", spectral ? "  wavelength_nm" : "");
+  fmt::print("{} on {}{}\n", subject.model.sum.name(), subject.surface.name(),
+             !spectral                                  ? ""
+             : limits.range_lo_nm == limits.range_hi_nm ? fmt::format(" at {:g} nm", limits.range_lo_nm)
+                                                        : fmt::format(", {:g}-{:g} nm (worst wavelength at each angle)",
+                                                                      limits.range_lo_nm, limits.range_hi_nm));
+  fmt::print("{:>10} {:>12} {:>10}{}\n", "theta_deg", subject.model.sum.is_sum() ? "E (own ks)" : "E (ks = 1)", "error",
+             spectral ? "  wavelength_nm" : "");
   for (const LimitRow& row : rows)
     fmt::print("{:>10g} {:>12.8f} {:>10.1e}{}{}\n", row.theta_deg, row.e.value, row.e.error,
                spectral ? fmt::format(" {:>14g}", row.wavelength_nm) : "",
                row.coherent > 0 ? fmt::format("  + coherent {:.6f}", row.coherent) : "");
   if (!limits.bounded)
     fmt::print("not conserving beyond {:g} deg: this lobe is unbounded at grazing; the limits hold up to there\n", limits.theta_max_deg);
-  fmt::print("ks_max = {:.6f} (kd = 0)\nkd_max = {:.6f} (ks = {:g})\n", limits.ks_max, limits.kd_max, brdf.ks);
-  fmt::print("kd = {:g}, ks = {:g}: largest kd rho_d + ks E = {:.6f} at {:g} deg; (43) {}\n", brdf.kd, brdf.ks, limits.worst_total,
-             limits.worst_theta_deg, limits.worst_total > 1 + limits.worst_error ? fmt::format("is broken by {:.4g}", limits.worst_total - 1)
-                                     : limits.bounded ? "holds" : "holds up to there");
+  const bool sum = subject.model.sum.is_sum();
+  const std::string kd = linear_values(subject, "kd"), ks = linear_values(subject, "ks");
+  fmt::print("ks_max = {:.6f} ({}kd = 0)\nkd_max = {:.6f} ({})\n", limits.ks_max, sum ? "all ks times this; " : "",
+             limits.kd_max, ks);
+  fmt::print("{}, {}: largest kd rho_d + {} = {:.6f} at {:g} deg; (43) {}\n", kd, ks, sum ? "E" : "ks E",
+             limits.worst_total, limits.worst_theta_deg,
+             limits.worst_total > 1 + limits.worst_error ? fmt::format("is broken by {:.4g}", limits.worst_total - 1)
+             : limits.bounded                            ? "holds"
+                                                         : "holds up to there");
+}
+
+void set_ks(Subject& subject, double ks) {
+  const LobeSum& sum = subject.model.sum;
+  if (sum.first().id == ModelId::lambert) throw input_error("--ks: lambert has no lobe; expected kd only");
+  if (sum.is_sum()) throw input_error("--ks: {} has a ks for each lobe; expected --set ks_1=…", sum.name());
+  if (subject.is_spectral())
+    throw input_error("--ks: this fit's kd or ks differ between wavelengths; expected no --ks");
+  subject.model.values.back() = ks;
+  if (subject.fitted) subject.fitted->values = subject.model.values;
+  sum.check(subject.model.values);
+}
+
+/// One list where one serves all wavelengths.
+SampledLobes lobes_at(const Subject& subject, const std::vector<double>& wavelengths_nm) {
+  if (!subject.is_spectral()) return {make_brdfs(subject.model.sum, subject.model.values)};
+  SampledLobes all;
+  for (const double nm : wavelengths_nm) all.push_back(make_brdfs(subject.model.sum, subject.values_at(nm)));
+  return all;
 }
 
 void run_limits(const TableArguments& arguments, Common& common) {
   Subject subject = make_subject(arguments.model, arguments.surface);
-  if (arguments.ks) {
-    if (subject.model.spec.id == ModelId::lambert) throw input_error("--ks: lambert has no lobe; expected kd only");
-    subject.model.values.back() = *arguments.ks;
-    check_values(subject.model.spec, subject.model.values);
-  }
+  if (arguments.ks) set_ks(subject, *arguments.ks);
   const SurfaceSamples samples = sample_surface(subject, arguments.at_nm);
   const std::vector<double> asked =
       arguments.angles.empty() ? limit_angles_deg() : number_list(arguments.angles, "--angles", 0, 89.99);
   std::vector<double> angles = limit_angles_deg();
   angles.insert(angles.end(), asked.begin(), asked.end());
-  const Brdf<double> brdf = make_brdf<double>(subject.model.spec, subject.model.values);
-  const Limits limits = conservation_limits(brdf, samples, angles);
+  const Limits limits = conservation_limits(lobes_at(subject, samples.wavelength_nm), samples, angles);
   std::vector<LimitRow> rows;
   for (const double theta : asked)
     for (const LimitRow& row : limits.rows)
@@ -98,12 +138,18 @@ void add_table(CLI::App& app, Common& common) {
   command->add_option("-o,--out", arguments->out, "OpenEXR file to write (a CSV of the same name beside it)");
 
   auto* limits = command->add_subcommand("limits", "ks_max, kd_max and E of a material or a fit; exit 1 when (43) is broken");
-  limits->footer("Example: gonio table limits torrance-sparrow --set m=0.2 --material Au --ks 0.9 --angles 0,45,80");
+  limits->footer(
+      "Example: gonio table limits torrance-sparrow --set m=0.2 --material Au --ks 0.9 --angles 0,45,80\n"
+      "(43): kd rho_d + ks E <= 1 at every angle and wavelength. E is of ks = 1, ks_max the largest ks at kd = 0, "
+      "kd_max\n"
+      "the largest kd at the material's own ks. Of a sum E is of its lobes with their own ks, and ks_max the largest\n"
+      "factor on all of them together. Where kd or ks differ between a fit's wavelengths, each must hold with its "
+      "own.");
   add_common(*limits, common);
   auto asked = std::make_shared<TableArguments>();
   asked->model.add_to(*limits);
   asked->surface.add_to(*limits);
-  limits->add_option("--ks", asked->ks, "ks for which kd_max is asked (default: the material's own)");
+  limits->add_option("--ks", asked->ks, "ks for which kd_max is asked (default: the material's own); not for sums");
   limits->add_option("--at", asked->at_nm, "Wavelength in nm; without it the worst over the visible range of the data");
   limits->add_option("--angles", asked->angles, "Angles in degrees, 0 to 89.99, whose E is shown");
   limits->callback([&common, asked] { run_limits(*asked, common); });

@@ -26,33 +26,71 @@ struct AtAngle {
   double smallest_kd = 1e9;  ///< min of (1 - ks(E + coherent + error))/ρd
 };
 
-AtAngle look_along(const Brdf<double>& brdf, const SurfaceSamples& samples, double theta_deg, double phi_deg,
-                   double tolerance) {
-  const SpectralSurface& surface = samples.surface;
-  const std::vector<Estimate> e = directional_reflectance(brdf.lobe, theta_deg, surface, tolerance, phi_deg);
-  Brdf<double> unit = brdf;
-  unit.ks = 1;
+/// A material over the samples' wavelengths.
+struct Sampled {
+  const SampledLobes& lobes;
+  const SurfaceSamples& samples;
+
+  const std::vector<Brdf<double>>& at(std::size_t wavelength) const { return lobes[lobes.size() > 1 ? wavelength : 0]; }
+  const std::vector<Brdf<double>>& any() const { return lobes.front(); }  // alike but for kd and ks
+  /// What E holds of a lobe's ks, and what is left to multiply E by.
+  double within(const Brdf<double>& lobe) const { return any().size() > 1 ? lobe.ks : 1; }
+  double beside(const Brdf<double>& lobe) const { return any().size() > 1 ? 1 : lobe.ks; }
+
+  double coherent(std::size_t wavelength, double cos_i) const {
+    double sum = 0;
+    for (Brdf<double> lobe : at(wavelength)) {
+      lobe.ks = within(lobe);
+      sum += coherent_energy(lobe, cos_i, samples.surface.interfaces[wavelength],
+                             samples.surface.wavelength_um[wavelength]);
+    }
+    return sum;
+  }
+};
+
+/// E of the lobes together, one value a wavelength.
+std::vector<Estimate> reflected(const Sampled& material, double theta_deg, double phi_deg, double tolerance) {
+  const SpectralSurface& surface = material.samples.surface;
+  std::vector<Estimate> sum(surface.size());
+  for (std::size_t j = 0; j < material.any().size(); ++j) {
+    const auto e = directional_reflectance(material.any()[j].lobe, theta_deg, surface, tolerance, phi_deg);
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+      const double share = material.within(material.at(i)[j]);
+      sum[i].value += share * e[i].value;
+      sum[i].error += share * e[i].error;
+      sum[i].converged = sum[i].converged && e[i].converged;
+    }
+  }
+  return sum;
+}
+
+AtAngle look_along(const Sampled& material, double theta_deg, double phi_deg, double tolerance) {
+  const SpectralSurface& surface = material.samples.surface;
+  const std::vector<Estimate> e = reflected(material, theta_deg, phi_deg, tolerance);
   AtAngle result;
   for (std::size_t i = 0; i < surface.size(); ++i) {
-    const double rho_d = brdf.diffuse_times_r0() ? surface.interfaces[i].r0() : 1;
-    const double coherent = coherent_energy(unit, cos_deg(theta_deg), surface.interfaces[i], surface.wavelength_um[i]);
-    const double reflected = e[i].value + coherent, bound = reflected + e[i].error;
-    const LimitRow row{theta_deg, samples.wavelength_nm[i], e[i], coherent, brdf.kd * rho_d + brdf.ks * reflected,
-                       phi_deg};
+    const Brdf<double>& first = material.at(i).front();
+    const double rho_d = first.diffuse_times_r0() ? surface.interfaces[i].r0() : 1, ks = material.beside(first);
+    const double coherent = material.coherent(i, cos_deg(theta_deg));
+    const double whole = e[i].value + coherent, bound = whole + e[i].error;
+    const LimitRow row{theta_deg, material.samples.wavelength_nm[i], e[i],
+                       coherent,  first.kd * rho_d + ks * whole,     phi_deg};
     if (i == 0 || bound > result.largest_e) result.row = row;
     if (i == 0 || row.total > result.worst_total.total) result.worst_total = row;
     result.largest_e = std::max(result.largest_e, bound);
-    if (rho_d > 0) result.smallest_kd = std::min(result.smallest_kd, (1 - brdf.ks * bound) / rho_d);
+    if (rho_d > 0) result.smallest_kd = std::min(result.smallest_kd, (1 - ks * bound) / rho_d);
   }
   return result;
 }
 
-/// The worst of the light's azimuths where the lobe looks at the grain, 15° apart over the quarter that holds them all.
-AtAngle look_at(const Brdf<double>& brdf, const SurfaceSamples& samples, double theta_deg, double tolerance) {
-  AtAngle worst = look_along(brdf, samples, theta_deg, 0, tolerance);
-  if (!looks_at_the_grain(brdf.lobe)) return worst;
+/// The worst of the light's azimuths where a lobe looks at the grain, 15° apart over the quarter that holds them all.
+AtAngle look_at(const Sampled& material, double theta_deg, double tolerance) {
+  AtAngle worst = look_along(material, theta_deg, 0, tolerance);
+  const auto& lobes = material.any();
+  if (std::none_of(lobes.begin(), lobes.end(), [](const auto& one) { return looks_at_the_grain(one.lobe); }))
+    return worst;
   for (int phi_deg = 15; phi_deg <= 90; phi_deg += 15) {
-    const AtAngle one = look_along(brdf, samples, theta_deg, phi_deg, tolerance);
+    const AtAngle one = look_along(material, theta_deg, phi_deg, tolerance);
     if (one.largest_e > worst.largest_e) worst.row = one.row;
     if (one.worst_total.total > worst.worst_total.total) worst.worst_total = one.worst_total;
     worst.largest_e = std::max(worst.largest_e, one.largest_e);
@@ -81,10 +119,11 @@ std::vector<double> limit_angles_deg() {
   return angles;
 }
 
-Limits conservation_limits(const Brdf<double>& brdf, const SurfaceSamples& samples, std::vector<double> angles_deg,
+Limits conservation_limits(const SampledLobes& lobes, const SurfaceSamples& samples, std::vector<double> angles_deg,
                            double theta_max_deg_if_unbounded, double tolerance) {
+  const Sampled material{lobes, samples};
   Limits limits;
-  limits.bounded = !unbounded_at_grazing(brdf);
+  limits.bounded = std::none_of(material.any().begin(), material.any().end(), unbounded_at_grazing);
   limits.theta_max_deg = limits.bounded ? 90 : theta_max_deg_if_unbounded;
   limits.range_lo_nm = samples.wavelength_nm.front();
   limits.range_hi_nm = samples.wavelength_nm.back();
@@ -95,7 +134,7 @@ Limits conservation_limits(const Brdf<double>& brdf, const SurfaceSamples& sampl
 
   std::vector<AtAngle> at(angles_deg.size());
   tbb::parallel_for(std::size_t(0), at.size(),
-                    [&](std::size_t i) { at[i] = look_at(brdf, samples, angles_deg[i], tolerance); });
+                    [&](std::size_t i) { at[i] = look_at(material, angles_deg[i], tolerance); });
   double largest_e = 0, smallest_kd = 1e9;
   std::size_t peak = 0;
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -109,7 +148,7 @@ Limits conservation_limits(const Brdf<double>& brdf, const SurfaceSamples& sampl
     std::vector<AtAngle> between(9);
     const auto angle = [&](std::size_t i) { return lo + (hi - lo) * static_cast<double>(i + 1) / 10; };
     tbb::parallel_for(std::size_t(0), between.size(),
-                      [&](std::size_t i) { between[i] = look_at(brdf, samples, angle(i), tolerance); });
+                      [&](std::size_t i) { between[i] = look_at(material, angle(i), tolerance); });
     std::size_t best = 0;
     for (std::size_t i = 0; i < between.size(); ++i) {
       take(limits, between[i], largest_e, smallest_kd);
@@ -119,10 +158,8 @@ Limits conservation_limits(const Brdf<double>& brdf, const SurfaceSamples& sampl
     lo = middle - step;
     hi = middle + step;
   }
-  const Brdf<double> unit{brdf.lobe, 0, 1};
   for (std::size_t i = 0; i < samples.surface.size(); ++i)
-    limits.coherent_energy = std::max(limits.coherent_energy, coherent_energy(unit, 1.0, samples.surface.interfaces[i],
-                                                                              samples.surface.wavelength_um[i]));
+    limits.coherent_energy = std::max(limits.coherent_energy, material.coherent(i, 1.0));
   limits.ks_max = largest_e > 0 ? 1 / largest_e : std::numeric_limits<double>::infinity();
   limits.kd_max = std::max(0.0, smallest_kd);
   return limits;

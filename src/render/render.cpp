@@ -24,6 +24,12 @@ std::vector<Interface<double>> interfaces(const SceneMaterial& material, std::sp
   return all;
 }
 
+/// One list for all wavelengths, or one for each.
+std::vector<std::vector<double>> values_of(const SceneMaterial& material) {
+  if (material.by_wavelength.empty()) return {material.values};
+  return material.by_wavelength;
+}
+
 template <std::size_t N>
 SpectralLanes<N> lanes_of(const Emission& emission, std::span<const double> wavelengths_nm) {
   std::vector<double> values;
@@ -46,7 +52,7 @@ PathTracer<N> make_tracer(const Scene& scene, const RenderSettings& settings) {
   }
   std::vector<SurfaceShader<N>> shaders;
   for (const SceneMaterial& material : scene.materials)
-    shaders.emplace_back(material.model, material.values, interfaces(material, wavelengths_nm), wavelengths_nm);
+    shaders.emplace_back(material.model, values_of(material), interfaces(material, wavelengths_nm), wavelengths_nm);
   std::vector<SpectralLanes<N>> emitted;
   for (const SphericalLight& light : scene.lights) {
     shapes.push_back({Shape::Kind::sphere, light.center, light.radius});

@@ -95,14 +95,17 @@ void check(const Scene& scene) {
     check_range("ground height", scene.ground->height, -kFarthest, kFarthest);
     check_range("ground radius", scene.ground->radius, 1e-4, kFarthest);
   }
-  for (const SceneMaterial& material : scene.materials) check_values(material.model, material.values);
+  for (const SceneMaterial& material : scene.materials) {
+    material.model.check(material.values);
+    for (const std::vector<double>& values : material.by_wavelength) material.model.check(values);
+  }
 }
 
 Scene validation_scene(SceneMaterial sphere_material, std::vector<double> wavelengths_nm) {
   const std::string illuminant = wavelengths_nm.size() == 1 ? "constant" : "D65";
   Scene scene;
   scene.camera = {{0, -6.4, 3.1}, {0, 0, 0.86}, 24, 320, 240};
-  scene.materials = {std::move(sphere_material), {"ground", {ModelId::lambert}, {0.4}, "perfect", {}}};
+  scene.materials = {std::move(sphere_material), {"ground", ModelSpec{ModelId::lambert}, {0.4}, "perfect", {}}};
   scene.spheres = {{{0, 0, 1}, 1, 0}};
   scene.ground = GroundObject{0, 100, 1};
   scene.lights = {{{-4, -3, 6.5}, 2, {9, illuminant}}};

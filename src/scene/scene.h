@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "brdf/models.h"
+#include "brdf/lobe_sum.h"
 #include "optics/interface.h"
 
 namespace gonio {
@@ -20,13 +20,15 @@ struct Camera {
   int width = 320, height = 240;
 };
 
-/// A surface: model, its values in the order of model.info().parameters, and what its facets are made of.
+/// A surface: model, its values in the order of model.parameters(), and what its facets are made of.
 struct SceneMaterial {
   std::string name;
-  ModelSpec model;
-  std::vector<double> values;
+  LobeSum model;
+  std::vector<double> values;                        ///< at every wavelength, unless by_wavelength says otherwise
   std::string material = "perfect";                  ///< database id
   std::optional<Interface<double>> fixed_interface;  ///< n, k at every wavelength, in place of `material`
+  /// All values at each of the scene's wavelengths, where kd or ks differ between them; else empty.
+  std::vector<std::vector<double>> by_wavelength{};
 };
 
 struct SphereObject {

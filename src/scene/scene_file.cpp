@@ -41,15 +41,23 @@ Emission read_emission(YamlMap& map) {
   return emission;
 }
 
+/// "alpha" for "m", "alpha_2" for "m_2"; empty where the parameter is no m.
+std::string alpha_for(std::string_view parameter) {
+  if (parameter != "m" && !parameter.starts_with("m_")) return "";
+  return fmt::format("alpha{}", parameter.substr(1));
+}
+
 /// Values in the model's order; alpha = √2·m may stand for m.
-std::vector<double> read_values(YamlMap map, const ModelInfo& info) {
-  const bool takes_alpha = info.parameters.front().name == "m";
-  if (takes_alpha && map.has("alpha") && map.has("m"))
-    throw map.error(map.at("alpha"), "m and alpha are both given", "exactly one (alpha = sqrt(2) m)");
+std::vector<double> read_values(YamlMap map, const LobeSum& model) {
   std::vector<double> values;
-  for (const ParameterInfo& p : info.parameters) {
-    if (p.name == "m" && map.has("alpha")) {
-      values.push_back(map.number("alpha", p.lo * std::sqrt(2), p.hi * std::sqrt(2)) / std::sqrt(2));
+  for (const ParameterInfo& p : model.parameters()) {
+    const std::string alpha = alpha_for(p.name);
+    const bool by_alpha = !alpha.empty() && map.has(alpha);
+    if (by_alpha && map.has(p.name))
+      throw map.error(map.at(alpha), fmt::format("{} and {} are both given", p.name, alpha),
+                      "exactly one (alpha = sqrt(2) m)");
+    if (by_alpha) {
+      values.push_back(map.number(alpha, p.lo * std::sqrt(2), p.hi * std::sqrt(2)) / std::sqrt(2));
     } else if (p.fallback) {
       values.push_back(map.number_or(p.name, p.lo, p.hi, *p.fallback));
     } else {
@@ -72,21 +80,29 @@ SceneMaterial read_fitted(const std::string& name, YamlMap map, const std::vecto
   });
 }
 
+/// shadowing, variant and retro; of a sum with the suffix of the lobe.
+void read_choices(YamlMap& map, LobeSum& model) {
+  for (std::size_t j = 0; j < model.lobes().size(); ++j) {
+    const std::string suffix = model.is_sum() ? fmt::format("_{}", j + 1) : "";
+    for (const std::string name : {"shadowing", "variant", "retro"}) {
+      const std::string key = name + suffix, value = map.text_or(key, "");
+      if (!value.empty()) at_line(map, key, [&] { model.set(key, value); });
+    }
+  }
+}
+
 SceneMaterial read_material(const std::string& name, YamlMap map, const std::vector<double>& wavelengths_nm) {
   if (map.has("fit")) return read_fitted(name, map, wavelengths_nm);
   SceneMaterial material;
   material.name = name;
-  const std::string model_name = map.text("model"), shadowing = map.text_or("shadowing", ""),
-                    variant = map.text_or("variant", ""), id = map.text_or("material", "perfect");
-  at_line(map, "model", [&] { material.model.id = model(model_name).id; });
-  if (!shadowing.empty()) at_line(map, "shadowing", [&] { set_shadowing(material.model, shadowing); });
-  if (!variant.empty()) at_line(map, "variant", [&] { set_variant(material.model, variant); });
+  const std::string model_name = map.text("model"), id = map.text_or("material", "perfect");
+  at_line(map, "model", [&] { material.model = lobe_sum(model_name); });
+  read_choices(map, material.model);
   if (id != "perfect") at_line(map, "material", [&] { material.material = SurfaceMaterial(id).id(); });
-  const ModelInfo& info = material.model.info();
   if (map.has("set")) {
-    material.values = read_values(map.map("set"), info);
+    material.values = read_values(map.map("set"), material.model);
   } else {
-    material.values = read_values(YamlMap(YAML::Load("{}"), map.file(), name), info);
+    material.values = read_values(YamlMap(YAML::Load("{}"), map.file(), name), material.model);
   }
   map.finish();
   return material;

@@ -15,7 +15,7 @@ using namespace gonio;
 
 namespace {
 
-SceneMaterial gold() { return {"gold", {ModelId::torrance_sparrow}, {0.2, 0, 1}, "Au_Johnson", {}}; }
+SceneMaterial gold() { return {"gold", ModelSpec{ModelId::torrance_sparrow}, {0.2, 0, 1}, "Au_Johnson", {}}; }
 
 Scene small(SceneMaterial material, std::vector<double> wavelengths = visible_wavelengths()) {
   Scene scene = validation_scene(std::move(material), std::move(wavelengths));

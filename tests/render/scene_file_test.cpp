@@ -53,7 +53,7 @@ TEST_CASE("a scene file says what is rendered", "[scene]") {
   CHECK(scene.camera.width == 64);
   REQUIRE(scene.materials.size() == 2);
   CHECK(scene.materials[0].material == "Au_Johnson");
-  CHECK(scene.materials[0].model.shadowing == Shadowing::v_cavity);
+  CHECK(scene.materials[0].model.first().shadowing == Shadowing::v_cavity);
   CHECK(scene.materials[0].values[0] == Approx(0.2 / std::sqrt(2)));
   CHECK(scene.materials[0].values[1] == 0.1);
   CHECK(scene.materials[0].values[2] == 1);
