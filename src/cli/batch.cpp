@@ -109,7 +109,7 @@ Json kept_fit(const fs::path& folder, const std::string& digest) {
 void fit_anew(Task& task, const FitRequest& request, const fs::path& folder, const std::string& digest) {
   const FitResult result = fit(read_any(task.measurement), request);
   make_folder(folder);
-  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg"}) fs::remove(folder / stale);
+  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg", "residuals.svg"}) fs::remove(folder / stale);
   write_plots(result, folder);
   task.fit = to_json(result);
   write_file(folder / "fit.json", task.fit.dump(2) + "\n");
