@@ -7,8 +7,8 @@
 
 namespace gonio {
 
-/// The density from which the directions of a sum are drawn that are no delta: the mixtures of its lobes, in proportion to
-/// their energies, none that reflects below a tenth of an equal share. Of one lobe it is that lobe's mixture, to the bit.
+/// The density from which the directions of a sum are drawn that are no delta: the mixtures of its lobes, in proportion
+/// to their energies, none that reflects below a tenth of an equal share. Of one lobe it is that lobe's own.
 class SumMixture {
  public:
   SumMixture() = default;

@@ -60,8 +60,8 @@ std::vector<double> number_list(const std::string& text, std::string_view option
 
 namespace {
 
-/// m and alpha name the same roughness of a Gaussian slope law; alpha sets both of alpha_x and alpha_y. A sum's names end
-/// in the suffix of the lobe.
+/// m and alpha name the same roughness of a Gaussian slope law; alpha sets both of alpha_x and alpha_y. A sum's names
+/// end in the suffix of the lobe.
 void settle_alpha(std::map<std::string, double>& given, const ModelInfo& info, const std::string& suffix) {
   const std::string name = "alpha" + suffix, x = "alpha_x" + suffix, y = "alpha_y" + suffix, m = "m" + suffix;
   const auto alpha = given.find(name);

@@ -41,7 +41,8 @@ struct EvalResult {
   std::optional<Mueller<double>> mueller;
 };
 
-/// The lobes of a sum are evaluated one by one and added. InputError where polarisation is asked of a row of vectors or of a lobe that does not state it, or transmission of an opaque surface.
+/// The lobes of a sum are evaluated one by one and added. InputError where polarisation is asked of a row of vectors or of
+/// a lobe that does not state it, or transmission of an opaque surface.
 EvalResult evaluate_row(const Subject& subject, const EvalRow& row, double wavelength_nm, const EvalRequest& request);
 
 }  // namespace gonio::cli

@@ -83,7 +83,7 @@ Subject make_subject(const ModelArguments& model, const SurfaceArguments& surfac
   if (!model.settings.empty() || !model.variant.empty() || surface.given())
     throw input_error("{}: a fit brings its own parameters and material; expected no --set, --variant, --material, --n", model.model);
   const FittedMaterial fitted = read_fit(model.model);
-  return {{fitted.model.first(), fitted.values, {}, {}}, surface_of(fitted), fitted};
+  return {{fitted.model, fitted.values, {}, {}}, surface_of(fitted), fitted};
 }
 
 SurfaceSamples sample_surface(const Subject& subject, std::optional<double> at_nm) {

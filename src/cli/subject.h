@@ -25,8 +25,8 @@ struct Subject {
 /// InputError for what no model or fit is; a fit takes neither --set nor --material.
 Subject make_subject(const ModelArguments& model, const SurfaceArguments& surface);
 
-/// The subject's surface at one wavelength, or over the visible range (360-830 nm) as far as its data reach, 5 nm apart; of
-/// a fit whose kd or ks differ between wavelengths, from the first to the last of these, and each of them.
+/// The subject's surface at one wavelength, or over the visible range (360-830 nm) as far as its data reach, 5 nm apart;
+/// of a fit whose kd or ks differ between wavelengths, from the first to the last of these, and each of them.
 SurfaceSamples sample_surface(const Subject& subject, std::optional<double> at_nm);
 
 }  // namespace gonio::cli

@@ -11,8 +11,8 @@ struct SurfaceSamples {
   SpectralSurface surface;            ///< in step with wavelength_nm
 };
 
-/// E at one incidence: the worst wavelength's, with the coherent delta's energy added in `total`. E of one lobe is that of
-/// ks = 1; of a sum, that of its lobes each with its own ks.
+/// E at one incidence: the worst wavelength's, with the coherent delta's energy added in `total`. E of one lobe is that
+/// of ks = 1; of a sum, that of its lobes each with its own ks.
 struct LimitRow {
   double theta_deg = 0, wavelength_nm = 0;
   Estimate e;           ///< incoherent

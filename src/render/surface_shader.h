@@ -14,8 +14,8 @@
 
 namespace gonio {
 
-/// A BRDF, or a sum of lobes, at the scene's wavelengths. i towards the light, o towards the eye, in the surface's frame.
-/// The geometry is reduced once, in double; the wavelengths follow side by side, with their own kd and ks.
+/// A BRDF, or a sum of lobes, at the scene's wavelengths. i towards the light, o towards the eye, in the surface's
+/// frame. The geometry is reduced once, in double; the wavelengths follow side by side, with their own kd and ks.
 template <std::size_t N>
 class SurfaceShader {
  public:
@@ -28,7 +28,7 @@ class SurfaceShader {
     bool delta;
   };
 
-  /// `values`: one list for all wavelengths, or one for each, which differ in kd and ks; `surfaces`: the interface at each.
+  /// `values`: one list for all wavelengths, or one for each (kd and ks differ); `surfaces`: the interface at each.
   SurfaceShader(const LobeSum& model, std::span<const std::vector<double>> values,
                 std::span<const Interface<double>> surfaces, std::span<const double> wavelengths_nm) {
     std::vector<double> n, k, r0;
@@ -43,7 +43,7 @@ class SurfaceShader {
       surface_.push_back({lanes_n.part[b], lanes_k.part[b], surfaces.front().perfect});
     wavelength_um_ = Lanes::from(wavelengths_um_);
     mean_r0_ = mean(r0);
-    const std::vector<double> means = mean_values(values);
+    const std::vector<double> means = mean_values(model, values);
     const std::vector<Brdf<double>> lobes = make_brdfs(model, means);
     for (std::size_t j = 0; j < lobes.size(); ++j) {
       lobes_.push_back({lobes[j], spread_brdf<FloatLanes>(model.lobes()[j], model.values_of(j, means))});
@@ -78,8 +78,8 @@ class SurfaceShader {
     return (1 - delta_shares(o.z).sum) * mixture_.pdf(i, o);
   }
 
-  /// A mixture of the coherent deltas, a cosine lobe and the lobes' own samplers. Empty when the drawn direction lies below
-  /// the horizon (it carries nothing) or the surface is black.
+  /// A mixture of the coherent deltas, a cosine lobe and the lobes' own samplers. Empty when the drawn direction lies
+  /// below the horizon (it carries nothing) or the surface is black.
   std::optional<Sample> sample(const LocalDirection& o, Random& random) const {
     const DeltaShares shares = delta_shares(o.z);
     const double choice = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
@@ -113,9 +113,12 @@ class SurfaceShader {
   static double mean(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   }
-  static std::vector<double> mean_values(std::span<const std::vector<double>> values) {
-    std::vector<double> means;
-    for (std::size_t p = 0; p < values.front().size(); ++p) means.push_back(mean(spectrum(values, p)));
+  /// kd and ks are means; the others are alike at every wavelength.
+  static std::vector<double> mean_values(const LobeSum& model, std::span<const std::vector<double>> values) {
+    std::vector<double> means = values.front();
+    if (values.size() == 1) return means;
+    for (std::size_t p = 0; p < means.size(); ++p)
+      if (model.is_diffuse(p) || model.is_scale(p)) means[p] = mean(spectrum(values, p));
     return means;
   }
   static std::vector<double> spectrum(std::span<const std::vector<double>> values, std::size_t parameter) {

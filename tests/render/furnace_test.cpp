@@ -1,7 +1,7 @@
 // White furnaces: what a constant environment shows is known exactly.
 #include <glm/geometric.hpp>
 
-#include "brdf/brdf.h"
+#include "brdf/lobe_sum.h"
 #include "catch.h"
 #include "energy/directional_reflectance.h"
 #include "render/render.h"
@@ -15,10 +15,10 @@ namespace {
 constexpr double kDistance = 8, kFov_deg = 16;
 constexpr int kPixels = 24;
 
-Scene furnace(ModelSpec spec, std::vector<double> values) {
+Scene furnace(const LobeSum& model, std::vector<double> values) {
   Scene scene;
   scene.camera = {{0, -kDistance, 0}, {0, 0, 0}, kFov_deg, kPixels, kPixels};
-  scene.materials = {{"tested", spec, std::move(values), "perfect", {}}};
+  scene.materials = {{"tested", model, std::move(values), "perfect", {}}};
   scene.spheres = {{{0, 0, 0}, 1, 0}};
   scene.environment = {1, "constant"};
   scene.wavelengths_nm = {550};
@@ -91,7 +91,7 @@ RenderSettings settings(int spp, Strategy strategy = Strategy::mis) {
 }  // namespace
 
 TEST_CASE("white furnace: a Lambert sphere vanishes", "[render]") {
-  Scene scene = furnace({ModelId::lambert}, {1});
+  Scene scene = furnace(ModelSpec{ModelId::lambert}, {1});
   for (const bool lit : {false, true}) {
     // A light of the environment's own radiance changes nothing, but exercises light sampling and its weights.
     if (lit) scene.lights = {{{-3, -3, 3}, 1.5, {1, "constant"}}};
@@ -108,7 +108,7 @@ TEST_CASE("white furnace: a Lambert sphere vanishes", "[render]") {
 }
 
 TEST_CASE("white furnace: sphere, ground and light all vanish together", "[render]") {
-  Scene scene = furnace({ModelId::lambert}, {1});
+  Scene scene = furnace(ModelSpec{ModelId::lambert}, {1});
   scene.camera = {{0, -6, 3}, {0, 0, 0}, 30, kPixels, kPixels};
   scene.materials.push_back({"white ground", {ModelId::lambert}, {1}, "perfect", {}});
   scene.ground = GroundObject{-1, 50, 1};
@@ -162,4 +162,15 @@ TEST_CASE("white furnace: Beckmann-Kirchhoff, coherent delta and incoherent lobe
     INFO("sigma " << sigma_um << ": " << z.beyond_4 << " beyond 4, largest " << z.largest << ", mean z " << z.mean_z());
     CHECK(z.holds());
   }
+}
+
+TEST_CASE("white furnace: a sum of lobes, one of them with a delta, over a diffuse part", "[render][slow]") {
+  const LobeSum model = lobe_sum("torrance-sparrow+beckmann-kirchhoff");
+  const std::vector<double> values{0.3, 0.05, 2, 0.2, 0.3, 0.4};
+  std::vector<double> table = reflectances(model.lobes()[0], {0.3, 0, 1});
+  const std::vector<double> second = reflectances(model.lobes()[1], {0.05, 2, 0, 1}, true);
+  for (std::size_t i = 0; i < table.size(); ++i) table[i] = 0.2 + 0.3 * table[i] + 0.4 * second[i];
+  const Normality z = compare(render(furnace(model, values), settings(4096)), table);
+  INFO(z.beyond_4 << " beyond 4, largest " << z.largest << ", mean z " << z.mean_z());
+  CHECK(z.holds());
 }

@@ -27,7 +27,7 @@ RenderSettings settings(Strategy strategy, int spp) {
 Scene ground_point(double x, std::vector<SphericalLight> lights) {
   Scene scene;
   scene.camera = {{x, -5, 5}, {x, 0, 0}, 0.1, 1, 1};
-  scene.materials = {{"white", {ModelId::lambert}, {1}, "perfect", {}}};
+  scene.materials = {{"white", ModelSpec{ModelId::lambert}, {1}, "perfect", {}}};
   scene.ground = GroundObject{0, 100, 0};
   scene.lights = std::move(lights);
   scene.wavelengths_nm = {550};
@@ -103,7 +103,8 @@ TEST_CASE("light directions: uniform in the cone, and the density integrates to 
 }
 
 TEST_CASE("light sampling, BRDF sampling and both agree pixel by pixel on rough metal", "[render]") {
-  Scene scene = validation_scene({"rough", {ModelId::torrance_sparrow}, {0.2, 0.1, 0.9}, "perfect", {}}, {550});
+  Scene scene =
+      validation_scene({"rough", ModelSpec{ModelId::torrance_sparrow}, {0.2, 0.1, 0.9}, "perfect", {}}, {550});
   scene.camera.width = 24;
   scene.camera.height = 18;
   const RenderResult mis = render(scene, settings(Strategy::mis, 1500));
@@ -130,7 +131,7 @@ TEST_CASE("light sampling, BRDF sampling and both agree pixel by pixel on rough 
 }
 
 TEST_CASE("both together are never much worse than the better one", "[render]") {
-  Scene scene = validation_scene({"rough", {ModelId::torrance_sparrow}, {0.1, 0, 1}, "perfect", {}}, {550});
+  Scene scene = validation_scene({"rough", ModelSpec{ModelId::torrance_sparrow}, {0.1, 0, 1}, "perfect", {}}, {550});
   scene.camera.width = scene.camera.height = 32;
   const auto noise = [&](Strategy strategy) {
     double sum = 0;

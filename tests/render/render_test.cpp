@@ -59,7 +59,7 @@ TEST_CASE("one wavelength alone is what it is among many, within the noise", "[r
 }
 
 TEST_CASE("the stated variance is that of repeated renders", "[render]") {
-  Scene scene = small({"white", {ModelId::lambert}, {0.8}, "perfect", {}}, {550});
+  Scene scene = small({"white", ModelSpec{ModelId::lambert}, {0.8}, "perfect", {}}, {550});
   scene.camera.width = scene.camera.height = 8;
   RenderSettings settings;
   settings.spp = 64;
@@ -184,4 +184,47 @@ TEST_CASE("what cannot be rendered is refused", "[render]") {
   huge.camera.width = huge.camera.height = 16384;
   CHECK_THROWS_AS(render(huge, settings), InputError);
   CHECK_THROWS_AS(strategy_from("best"), InputError);
+}
+
+TEST_CASE("a sphere with a sum of lobes shows the sum of two images", "[render]") {
+  // No other object and a dark sky: one reflection, linear in f. The light itself is out of sight.
+  const auto image = [](const LobeSum& model, std::vector<double> values) {
+    Scene scene;
+    scene.camera = {{0, -8, 0}, {0, 0, 0}, 16, 24, 24};
+    scene.materials = {{"tested", model, std::move(values), "Au_Johnson", {}}};
+    scene.spheres = {{{0, 0, 0}, 1, 0}};
+    scene.lights = {{{-4, -6, 5}, 2, {9, "constant"}}};
+    scene.wavelengths_nm = {450, 550, 650};
+    RenderSettings settings;
+    settings.spp = 512;
+    return render(scene, settings);
+  };
+  const RenderResult sum = image(lobe_sum("ggx+torrance-sparrow"), {0.2, 0.3, 0.5, 0.15, 0.4, 0.3});
+  const RenderResult first = image(ModelSpec{ModelId::ggx}, {0.2, 0.3, 0.15, 0.4});
+  const RenderResult second = image(ModelSpec{ModelId::torrance_sparrow}, {0.5, 0, 0.3});
+  gonio::test::Normality z;
+  constexpr std::size_t kBlock = 36 * 3;  // pixels in a row times wavelengths: near to normal
+  for (std::size_t from = 0; from + kBlock <= sum.image.radiance.size(); from += kBlock) {
+    for (std::size_t w = 0; w < 3; ++w) {
+      double difference = 0, variance = 0;
+      for (std::size_t k = from + w; k < from + kBlock; k += 3) {
+        difference += sum.image.radiance[k] - first.image.radiance[k] - second.image.radiance[k];
+        variance += sum.variance[k] + first.variance[k] + second.variance[k];
+      }
+      if (variance > 0) z.add(difference / std::sqrt(variance));
+    }
+  }
+  INFO(z.count << " blocks, largest " << z.largest << ", mean z " << z.mean_z());
+  CHECK(z.count > 20);
+  CHECK(z.largest <= gonio::test::sidak_bound(z.count));
+}
+
+TEST_CASE("values of each wavelength that are all alike make the bits of shared ones", "[render]") {
+  RenderSettings settings;
+  settings.spp = 8;
+  SceneMaterial shared = gold();
+  shared.values = {0.2, 0.125, 0.5};
+  SceneMaterial listed = shared;
+  listed.by_wavelength.assign(visible_wavelengths().size(), shared.values);
+  CHECK(render(small(shared), settings).image.radiance == render(small(listed), settings).image.radiance);
 }

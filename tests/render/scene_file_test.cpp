@@ -67,6 +67,26 @@ TEST_CASE("a scene file says what is rendered", "[scene]") {
         std::vector<double>{400, 532.5});
 }
 
+TEST_CASE("a scene file's material may be a sum of lobes", "[scene]") {
+  const auto sum = [](const std::string& set, const std::string& more = "") {
+    return replaced("{model: lambert, set: {kd: 0.4}}", "{model: torrance-sparrow+ggx, set: {" + set +
+                                                            "}, shadowing_1: v-cavity, retro_2: yes" + more + "}");
+  };
+  const std::string values = "alpha_1: 0.2, alpha_x_2: 0.3, alpha_y_2: 0.4, ks_2: 0.5, kd: 0.1";
+  const Scene scene = parse_scene(sum(values), "s.yaml");
+  const SceneMaterial& paper = scene.materials.at(1);
+  CHECK(paper.model.name() == "torrance-sparrow+ggx");
+  CHECK(paper.model.lobes()[0].shadowing == Shadowing::v_cavity);
+  CHECK(paper.model.lobes()[1].retro);
+  REQUIRE(paper.values.size() == 6);
+  CHECK(paper.values[0] == Approx(0.2 / std::sqrt(2)));
+  CHECK(std::vector(paper.values.begin() + 1, paper.values.end()) == std::vector{0.3, 0.4, 0.1, 1.0, 0.5});
+  CHECK(refusal(sum(values + ", m_1: 0.2")).find("m_1 and alpha_1") != std::string::npos);
+  CHECK(refusal(sum(values + ", ks: 0.2")).find("`ks`") != std::string::npos);
+  CHECK(refusal(sum(values, ", shadowing: v-cavity")).find("shadowing") != std::string::npos);
+  CHECK(refusal(sum(values, ", variant_3: exact")).find("variant_3") != std::string::npos);
+}
+
 TEST_CASE("a mistake in a scene is refused with its line", "[scene]") {
   struct Mistake {
     const char *from, *to, *line, *about;
@@ -137,4 +157,20 @@ TEST_CASE("a fitted material renders where its fit speaks, and nowhere else", "[
   fitted.n = 1.5;
   fitted.wavelength_nm.clear();
   CHECK(scene_material("a", fitted, {450}).fixed_interface->n == 1.5);
+}
+
+TEST_CASE("a fit with kd and ks of each wavelength is rendered with those of the scene's", "[scene]") {
+  FittedMaterial fitted;
+  fitted.model = ModelSpec{ModelId::torrance_sparrow};
+  fitted.values = {0.2, 0.1, 0.9};
+  fitted.wavelength_nm = {500, 600};
+  fitted.by_wavelength = {{}, {0.1, 0.3}, {0.9, 0.5}};
+  fitted.material = "Al_Rakic";
+  const SceneMaterial material = scene_material("a", fitted, {500, 525, 600});
+  REQUIRE(material.by_wavelength.size() == 3);
+  for (std::size_t w = 0; w < 3; ++w) CHECK(material.by_wavelength[w][0] == 0.2);
+  CHECK(material.by_wavelength[1][1] == Approx(0.15));
+  CHECK(material.by_wavelength[1][2] == Approx(0.8));
+  CHECK(material.by_wavelength[2][2] == Approx(0.5));
+  CHECK_THROWS_AS(scene_material("a", fitted, {450, 550}), InputError);
 }
