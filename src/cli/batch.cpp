@@ -111,7 +111,7 @@ void fit_anew(Task& task, const FitOptions& options, std::uint64_t seed, const f
   const Measurement scan = cleaned(read_any(task.measurement), options);
   const FitResult result = fit(scan, request_for(options, task.model, seed, scan.aperture_deg));
   make_folder(folder);
-  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg"}) fs::remove(folder / stale);
+  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg", "residuals.svg"}) fs::remove(folder / stale);
   write_plots(result, folder);
   task.fit = to_json(result);
   write_file(folder / "fit.json", task.fit.dump(2) + "\n");

@@ -16,6 +16,7 @@
 #include "cli/commands.h"
 #include "cli/fit_options.h"
 #include "fit/choose.h"
+#include "fit/diagnostics_json.h"
 #include "fit/fit_json.h"
 #include "fit/formats/formats.h"
 #include "fit/plots.h"
@@ -94,10 +95,20 @@ void print_summary(const std::vector<FitResult>& results) {
                              r.converged ? "yes" : "no");
 }
 
-void write_result(const FitResult& result, const std::filesystem::path& folder) {
+/// The fit with what is to be asked of it: warnings, and the part `diagnostics` of its JSON.
+Json diagnosed(const Measurement& scan, const FitOptions& options, FitResult& result) {
+  const FitDiagnostics found =
+      diagnose(scan, result, options.material.empty() ? std::nullopt : std::optional(options.material));
+  result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
+  Json json = to_json(result);
+  json["diagnostics"] = diagnostics_json(found, result);
+  return json;
+}
+
+void write_result(const FitResult& result, const Json& json, const std::filesystem::path& folder) {
   make_folder(folder);
   write_plots(result, folder);
-  write_file(folder / "fit.json", to_json(result).dump(2) + "\n");
+  write_file(folder / "fit.json", json.dump(2) + "\n");
 }
 
 /// --model auto: the chosen fit in OUT as if its model had been named, beside choice.csv.
@@ -112,13 +123,12 @@ void run_choice(const Measurement& scan, const FitArguments& arguments, Common& 
                                     [&](const std::string& what, int done, int count) { progress(what, done, count); });
   const std::vector<VisibleError> seen =
       arguments.tolerance ? content_with(choice, *arguments.tolerance) : std::vector<VisibleError>();
-  const FitResult& chosen = choice.candidates[choice.chosen].result;
+  FitResult chosen = choice.candidates[choice.chosen].result;
   const std::filesystem::path out = arguments.out;
-  write_result(chosen, out);
-  write_file(out / "choice.csv", choice_csv(choice, seen));
-  Json json = to_json(chosen);
+  Json json = diagnosed(scan, o, chosen);
   json["choice"] = choice_json(choice, seen);
-  write_file(out / "fit.json", json.dump(2) + "\n");
+  write_result(chosen, json, out);
+  write_file(out / "choice.csv", choice_csv(choice, seen));
   if (!chosen.converged) common.exit_code = 1;
   if (common.json) {
     std::cout << json.dump(2) << '\n';
@@ -139,9 +149,10 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
   Json json = Json::array();
   std::string csv;
   for (const double nm : wavelengths) {
-    const FitResult result = fit(at_wavelength(scan, nm), request);
-    write_result(result, out / fmt::format("{:g}nm", nm));
-    json.push_back(to_json(result));
+    const Measurement one = at_wavelength(scan, nm);
+    FitResult result = fit(one, request);
+    json.push_back(diagnosed(one, arguments.options, result));
+    write_result(result, json.back(), out / fmt::format("{:g}nm", nm));
     if (!common.json) print_card(result);
     if (!result.converged) common.exit_code = 1;
     if (csv.empty()) {
@@ -180,9 +191,9 @@ void run_fit(const FitArguments& arguments, Common& common) {
   }
   const std::filesystem::path out = arguments.out;
   Json json = Json::array();
-  for (const FitResult& result : results) {
-    write_result(result, results.size() == 1 ? out : out / result.model.name());
-    json.push_back(to_json(result));
+  for (FitResult& result : results) {
+    json.push_back(diagnosed(scan, arguments.options, result));
+    write_result(result, json.back(), results.size() == 1 ? out : out / result.model.name());
     if (!common.json) print_card(result);
     if (!result.converged) common.exit_code = 1;
   }
