@@ -202,7 +202,7 @@ class Judge {
     tbb::parallel_for(std::size_t{0}, splits_.size(), [&](std::size_t f) {
       FitRequest without = whole;
       without.begin = candidate.result.values(), without.starts = 1;
-      without.floor_per_sr = candidate.result.floor_per_sr;
+      without.floor_per_sr = candidate.result.floor_per_sr, without.relative_sd = candidate.result.relative_sd;
       add_errors(fit(splits_[f].rest, without), splits_[f].left_out, squares[f]);
     });
     for (std::size_t s = 0; s < count_of_.size(); ++s) {

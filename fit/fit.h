@@ -31,7 +31,9 @@ struct FitRequest {
   std::optional<std::string> material;           ///< instead of the measurement's; `perfect` reflects 1
   std::vector<std::string> spectral;             ///< "kd", "ks": parameters of their own at each wavelength
   Aperture aperture;                             ///< what the model is averaged over before it is compared
-  double relative_sd = 0;  ///< Metric::likelihood: standard deviation as a share of |y| + f0; 0: as the scan states it
+  /// Metric::likelihood: standard deviation as a share s of |y| + f0 (values that came out low count for more: f comes
+  /// out low by about s²); 0: as the scan states it, else from its repeats or reciprocal pairs.
+  double relative_sd = 0;
   bool free_n = false;     ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
   std::map<std::string, double> held;  ///< parameters held at a value
   std::vector<double> begin;           ///< values of the model's parameters where one more start begins
@@ -79,7 +81,7 @@ struct FitResult {
   Metric metric = Metric::log;
   Weighting weighting = Weighting::none;
   Aperture aperture;
-  double relative_sd = 0;  ///< of the request
+  double relative_sd = 0;  ///< of the request, or as estimated
   std::optional<double>
       chi2_reduced;  ///< Metric::likelihood: Σ residual²/(points - parameters), 1 where model and errors are right
   Loss loss = Loss::none;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "fit/aperture.h"
+#include "fit/scan_quality.h"
 #include "materials/database.h"
 
 namespace gonio {
@@ -201,22 +202,28 @@ FitProblem empty_problem(const Measurement& scan, const FitRequest& request, con
   return problem;
 }
 
-/// Under the likelihood every point counts by its standard deviation: the one it states, else the request's share of its value.
+/// Under the likelihood every point counts by its standard deviation: the request's share of its value, else the one it states, else a share
+/// of its value that repeats or reciprocal pairs show.
 void set_confidence(const Measurement& scan, const FitRequest& request, FitResult& result,
                     std::vector<FitPoint>& points) {
   if (request.metric != Metric::likelihood) return;
   const bool stated =
       std::all_of(scan.points.begin(), scan.points.end(), [](const ScanPoint& p) { return p.f_std_per_sr > 0; });
-  if (!stated && !(request.relative_sd > 0))
-    throw input_error(
-        "{}: no standard deviation is known of every value; expected brdf_std_per_sr > 0, 8 repeats or reciprocal "
-        "pairs, or --noise SHARE",
-        scan.id);
-  const bool given = request.relative_sd > 0;
+  if (!stated && !(request.relative_sd > 0)) {
+    const std::optional<NoiseEstimate> noise = noise_estimate(scan);
+    if (!noise)
+      throw input_error(
+          "{}: the standard deviation of its values is not known; expected brdf_std_per_sr > 0 in every row, 8 repeats "
+          "or reciprocal pairs, or --noise SHARE",
+          scan.id);
+    result.relative_sd = noise->relative_sd;
+    result.warnings.push_back(
+        fmt::format("standard deviations are not stated: {:.3g} of each value, from {} pairs of {}", noise->relative_sd,
+                    noise->pairs, noise->from == "repeats" ? "repeats" : "reciprocal directions"));
+  }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double y = scan.points[i].f_per_sr;
-    const double sd = given ? request.relative_sd * (std::abs(y) + result.floor_per_sr) : scan.points[i].f_std_per_sr;
-    points[i].confidence = 1 / sd;
+    const double share = result.relative_sd * (std::abs(scan.points[i].f_per_sr) + result.floor_per_sr);
+    points[i].confidence = 1 / (result.relative_sd > 0 ? share : scan.points[i].f_std_per_sr);
   }
 }
 

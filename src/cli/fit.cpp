@@ -20,6 +20,7 @@
 #include "fit/fit_json.h"
 #include "fit/formats/formats.h"
 #include "fit/plots.h"
+#include "fit/polarisation.h"
 
 namespace gonio::cli {
 namespace {
@@ -58,7 +59,7 @@ class Progress {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-void print_card(const FitResult& result) {
+void print_card(const FitResult& result, const Json& json) {
   std::cout << fmt::format("{} of {} ({})\n", described(result.model),
                            result.name.empty() ? result.measurement_id : result.name,
                            result.material  ? *result.material
@@ -82,6 +83,8 @@ void print_card(const FitResult& result) {
   if (result.held_out)
     std::cout << fmt::format("  left out: incidence {:g} degrees, {} points, rms_log10 {:.4g}\n",
                              result.held_out->theta_i_deg, result.held_out->points, result.held_out->rms_log10);
+  if (json.at("polarisation").contains("sentence"))
+    std::cout << "  " << json["polarisation"]["sentence"].get<std::string>() << '\n';
   for (const std::string& warning : result.warnings) std::cout << "  warning: " << warning << '\n';
   if (result.next_measurement) std::cout << "  next: " << sentence(*result.next_measurement) << '\n';
 }
@@ -102,6 +105,10 @@ Json diagnosed(const Measurement& scan, const FitOptions& options, FitResult& re
   result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
   Json json = to_json(result);
   json["diagnostics"] = diagnostics_json(found, result);
+  if (!scan.conventions.empty()) json["source"]["read_as"] = scan.conventions;
+  const MuellerJudgement polarisation = judge_polarisation(scan, result);
+  json["polarisation"] = to_json(polarisation, scan);
+  if (const std::string words = sentence(polarisation); !words.empty()) json["polarisation"]["sentence"] = words;
   return json;
 }
 
@@ -134,7 +141,7 @@ void run_choice(const Measurement& scan, const FitArguments& arguments, Common& 
     std::cout << json.dump(2) << '\n';
   } else {
     print_choice(choice, seen);
-    print_card(chosen);
+    print_card(chosen, json);
   }
 }
 
@@ -153,7 +160,7 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
     FitResult result = fit(one, request);
     json.push_back(diagnosed(one, arguments.options, result));
     write_result(result, json.back(), out / fmt::format("{:g}nm", nm));
-    if (!common.json) print_card(result);
+    if (!common.json) print_card(result, json.back());
     if (!result.converged) common.exit_code = 1;
     if (csv.empty()) {
       csv = "wavelength_nm";
@@ -194,7 +201,7 @@ void run_fit(const FitArguments& arguments, Common& common) {
   for (FitResult& result : results) {
     json.push_back(diagnosed(scan, arguments.options, result));
     write_result(result, json.back(), results.size() == 1 ? out : out / result.model.name());
-    if (!common.json) print_card(result);
+    if (!common.json) print_card(result, json.back());
     if (!result.converged) common.exit_code = 1;
   }
   if (results.size() > 1) write_file(out / "fits.json", json.dump(2) + "\n");

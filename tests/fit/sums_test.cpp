@@ -303,3 +303,19 @@ TEST_CASE("an aperture is taken out of the width of a narrow peak", "[fit][apert
   for (ScanPoint& p : flat.points) p.f_per_sr = 0.2;
   CHECK(fit(flat, diffuse).value("kd") == Approx(0.2 * kPi<double>).epsilon(1e-12));
 }
+
+TEST_CASE("where no deviation is stated, repeats give it", "[fit][likelihood]") {
+  Measurement scan = empty_scan();
+  const std::vector<ScanPoint> once = scan.points;
+  scan.points.insert(scan.points.end(), once.begin(), once.end());
+  FitRequest request = request_for(spec_of("torrance-sparrow"));
+  request.metric = Metric::likelihood;
+  const FitResult result = fit(synthetic(scan, spec_of("torrance-sparrow"), std::vector<double>{0.2, 0.1, 0.5},
+                                         perfect_interface<double>(), 0.03),
+                               request);
+  CHECK(result.relative_sd == Approx(0.03).epsilon(0.25));
+  CHECK(warns(result, "pairs of repeats"));
+  CHECK(*result.chi2_reduced == Approx(1).margin(0.4));
+  CHECK(result.value("m") == Approx(0.2).epsilon(0.01));
+  CHECK_THROWS_AS(fit(empty_scan(), request), InputError);  // equal values say nothing of their error
+}
