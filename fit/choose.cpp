@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "base/error.h"
@@ -90,10 +91,10 @@ void information_criteria(Candidate& c) {
   c.bic = fit + k * std::log(n);
 }
 
-auto cost_of(const LobeSum& model) {
-  const bool retro =
-      std::any_of(model.lobes().begin(), model.lobes().end(), [](const ModelSpec& lobe) { return lobe.retro; });
-  return std::tuple(model.parameters().size(), model.needs_wavelength(), retro);
+auto cost_of(const Candidate& c) {
+  const auto& lobes = c.result.model.lobes();
+  const bool retro = std::any_of(lobes.begin(), lobes.end(), [](const ModelSpec& lobe) { return lobe.retro; });
+  return std::tuple(c.parameters, c.result.model.needs_wavelength(), retro);
 }
 
 /// Excess of each candidate over the best, scan by scan.
@@ -265,7 +266,7 @@ Start sum_of(const Candidate& a, const Candidate& b) {
 }
 
 constexpr std::size_t kForward = 3, kTurnedBack = 2, kSumsContinued = 2;
-constexpr std::size_t kMostShapes = 12;  ///< parameters of a sum that is tried
+constexpr std::size_t kMostShapes = 15;  ///< parameters of the parts of a sum that is tried
 
 /// Pairs of the lobes that predict best alone, a lobe with another of its own kind too; of the best pairs then those with a third.
 std::vector<Start> pairs(const ModelChoice& choice) {
@@ -282,15 +283,25 @@ std::vector<Start> pairs(const ModelChoice& choice) {
         sums.push_back(sum_of(*parts[a], *parts[b]));
   return sums;
 }
+/// The lobes of a sum, in any order.
+std::multiset<std::string> lobes_of(const LobeSum& model) {
+  std::multiset<std::string> names;
+  for (const ModelSpec& lobe : model.lobes()) names.insert(described(lobe));
+  return names;
+}
+
 std::vector<Start> triples(const ModelChoice& choice) {
   const auto lobe = [](const LobeSum& m) { return !m.is_sum() && m.first().id != ModelId::lambert; };
   const auto two = best_of(choice, kSumsContinued, [](const LobeSum& m) { return m.lobes().size() == 2; });
   const auto one = best_of(choice, kForward, lobe);
   std::vector<Start> sums;
+  std::set<std::multiset<std::string>> known;
   for (const Candidate* pair : two)
-    for (const Candidate* third : one)
-      if (pair->result.model.parameters().size() + third->result.model.parameters().size() <= kMostShapes)
-        sums.push_back(sum_of(*pair, *third));
+    for (const Candidate* third : one) {
+      if (pair->result.model.parameters().size() + third->result.model.parameters().size() > kMostShapes) continue;
+      const Start sum = sum_of(*pair, *third);
+      if (known.insert(lobes_of(sum.model)).second) sums.push_back(sum);
+    }
   return sums;
 }
 
@@ -310,8 +321,7 @@ ModelChoice choose_model(const Measurement& measurement, const FitRequest& reque
   const auto try_all = [&] {
     const std::size_t count = choice.candidates.size() + starts.size();
     for (const Start& start : starts) {
-      if (progress)
-        progress(start.model.name(), static_cast<int>(choice.candidates.size()), static_cast<int>(count));
+      if (progress) progress(start.model.name(), static_cast<int>(choice.candidates.size()), static_cast<int>(count));
       choice.candidates.push_back(judge(start.model, start.begin));
     }
   };
@@ -322,9 +332,8 @@ ModelChoice choose_model(const Measurement& measurement, const FitRequest& reque
     starts = triples(choice);
     try_all();
   }
-  std::stable_sort(choice.candidates.begin(), choice.candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return cost_of(a.result.model) < cost_of(b.result.model);
-  });
+  std::stable_sort(choice.candidates.begin(), choice.candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return cost_of(a) < cost_of(b); });
   compare(choice);
   choice.sentence = sentence_of(choice);
   return choice;

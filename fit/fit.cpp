@@ -12,6 +12,7 @@
 #include "fit/fitted_material.h"
 #include "fit/prepare.h"
 #include "fit/profile_likelihood.h"
+#include "fit/scan_traps.h"
 #include "fit/solver.h"
 #include "fit/start.h"
 #include "fit/uncertainty.h"
@@ -24,7 +25,7 @@ namespace {
 constexpr std::size_t kFewPoints = 192, kSomePoints = 3000;
 constexpr double kWorthSolving =
     3;  ///< costs of starts on some of the points, over the least, from which on they are dropped
-constexpr double kTooLarge = 2;  ///< reduced chi² from which on the fit says so
+constexpr double kTooLarge = 2;         ///< reduced chi² from which on the fit says so
 constexpr std::size_t kMostSolved = 3;  ///< different minima among them that are solved on all points
 
 /// The logarithms of given values, inside their boxes (n, which is none of the model's, in the middle of its own).
@@ -342,6 +343,7 @@ FitResult fit(const Measurement& measurement, const FitRequest& request) {
   }
   store_points(measurement, ready, ready.problem, best.x, result);
   judge(ready, result);
+  warn_of_traps(measurement, result);
   if (!result.converged) result.warnings.push_back("no start converged: the values are those of the best one");
   if (result.refused_evaluations > 0)
     result.warnings.push_back(fmt::format("{} evaluations were not finite and refused", result.refused_evaluations));
@@ -358,7 +360,8 @@ std::vector<double> predict(const FitResult& result, double theta_i_deg, std::sp
   const std::vector<ApertureNode> aperture = aperture_nodes(result.aperture);
   std::vector<double> f;
   for (const double theta : theta_o_deg)
-    f.push_back(seen(lobes, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3, aperture));
+    f.push_back(
+        seen(lobes, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3, aperture));
   return f;
 }
 

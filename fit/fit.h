@@ -32,10 +32,10 @@ struct FitRequest {
   std::vector<std::string> spectral;             ///< "kd", "ks": parameters of their own at each wavelength
   Aperture aperture;                             ///< what the model is averaged over before it is compared
   double relative_sd = 0;  ///< Metric::likelihood: standard deviation as a share of |y| + f0; 0: as the scan states it
-  bool free_n = false;                           ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
-  std::map<std::string, double> held;            ///< parameters held at a value
-  std::vector<double> begin;                     ///< values of the model's parameters where one more start begins
-  Loss loss = Loss::none;                        ///< what becomes of large residuals
+  bool free_n = false;     ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
+  std::map<std::string, double> held;  ///< parameters held at a value
+  std::vector<double> begin;           ///< values of the model's parameters where one more start begins
+  Loss loss = Loss::none;              ///< what becomes of large residuals
   double loss_width =
       0;  ///< in the residuals' unit; 0: Huber's 1.345 or Cauchy's 2.385 times their spread in a first fit
   bool profile_intervals = false;  ///< intervals of the profile likelihood (fit/profile_likelihood.h)
@@ -51,7 +51,7 @@ struct FittedParameter {
   bool held = false, at_bound = false, identifiable = true;
   std::string interval95_kind = "curvature";  ///< or "profile": of the profile likelihood
   bool lo_open = false, hi_open = false;      ///< of a profile: the search box ended first
-  std::size_t group = kShared;                ///< the place in wavelength_nm that it belongs to, where kd or ks are spectral
+  std::size_t group = kShared;  ///< the place in wavelength_nm that it belongs to, where kd or ks are spectral
 
   static constexpr std::size_t kShared = FreeParameter::kShared;
 };
@@ -79,8 +79,9 @@ struct FitResult {
   Metric metric = Metric::log;
   Weighting weighting = Weighting::none;
   Aperture aperture;
-  double relative_sd = 0;             ///< of the request
-  std::optional<double> chi2_reduced;  ///< Metric::likelihood: Σ residual²/(points - parameters), 1 where model and errors are right
+  double relative_sd = 0;  ///< of the request
+  std::optional<double>
+      chi2_reduced;  ///< Metric::likelihood: Σ residual²/(points - parameters), 1 where model and errors are right
   Loss loss = Loss::none;
   double loss_width = 0;
   double floor_per_sr = 0;
@@ -88,7 +89,8 @@ struct FitResult {
   std::optional<std::string> material;  ///< full database id
   std::vector<double> wavelength_nm;    ///< empty: not stated
   std::optional<double> assumed_wavelength_nm;
-  std::vector<FittedParameter> parameters;  ///< in the model's order, those of each wavelength in a row; then n where it was fitted
+  std::vector<FittedParameter>
+      parameters;  ///< in the model's order, those of each wavelength in a row; then n where it was fitted
   bool converged = false;
 
   Residuals all;
@@ -113,7 +115,7 @@ struct FitResult {
   double value(std::string_view parameter) const;                 ///< InputError when there is none
   std::vector<double> values() const;  ///< in the order of the model's parameters, of the first wavelength
   std::vector<double> by_wavelength(std::string_view parameter) const;  ///< all of the name
-  std::optional<double> index() const;             ///< n, where it was fitted
+  std::optional<double> index() const;                                  ///< n, where it was fitted
 };
 
 /// Fits a model to a scan. InputError for what cannot be fitted (no wavelength where one is needed, an unknown

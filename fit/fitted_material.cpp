@@ -77,8 +77,8 @@ struct FitReader {
       material.values.push_back(all.front());
       if (!given.at(std::string(own[i].name)).at("value").is_array()) continue;
       if (all.size() != material.wavelength_nm.size())
-        throw input_error("{}: {} has {} values; expected one for each of {} wavelengths", file, own[i].name, all.size(),
-                          material.wavelength_nm.size());
+        throw input_error("{}: {} has {} values; expected one for each of {} wavelengths", file, own[i].name,
+                          all.size(), material.wavelength_nm.size());
       material.by_wavelength.resize(own.size());
       material.by_wavelength[i] = all;
     }
@@ -135,12 +135,18 @@ std::vector<double> FittedMaterial::values_at(std::optional<double> at_nm) const
   const auto after = static_cast<std::size_t>(next - wavelength_nm.begin());
   const double lo = wavelength_nm[after - 1], share = std::clamp((*at_nm - lo) / (*next - lo), 0.0, 1.0);
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (const auto& own = by_wavelength[i]; !own.empty()) all[i] = own[after - 1] + share * (own[after] - own[after - 1]);
+    if (const auto& own = by_wavelength[i]; !own.empty())
+      all[i] = own[after - 1] + share * (own[after] - own[after - 1]);
   return all;
 }
 
 FittedMaterial fitted_material(const FitResult& result) {
-  FittedMaterial material{result.model, result.values(), {}, result.material, result.index(), result.wavelength_nm,
+  FittedMaterial material{result.model,
+                          result.values(),
+                          {},
+                          result.material,
+                          result.index(),
+                          result.wavelength_nm,
                           result.assumed_wavelength_nm};
   for (std::size_t i = 0; i < material.values.size(); ++i) {
     const std::vector<double> own = result.by_wavelength(result.model.parameters()[i].name);

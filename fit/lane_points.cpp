@@ -59,8 +59,7 @@ LanePoints::LanePoints(const FitProblem& problem, std::span<const std::size_t> c
     std::array<Directions<double>, kWidth> directions;
     std::array<double, kWidth> shares{};
     for (std::size_t lane = 0; lane < kWidth; ++lane)
-      directions[lane] =
-          node == nullptr ? at[lane]->directions : through(*node, at[lane]->directions, shares[lane]);
+      directions[lane] = node == nullptr ? at[lane]->directions : through(*node, at[lane]->directions, shares[lane]);
     if (node != nullptr) share[batch] = DoubleLanes::load_unaligned(shares.data());
     using D = Directions<double>;
     const auto direction = [&](std::vector<DoubleLanes>& to, double D::*component) {

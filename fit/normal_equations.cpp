@@ -40,8 +40,7 @@ GONIO_ONE_LOOP void add_block(const Block& block, Triangle& sums) {
   for (std::size_t batch = block.from; batch < block.to; ++batch) {
     DoubleLanes f = multiply_add(scale, value[0][batch], constant);
     if constexpr (!kOneLobe)
-      for (std::size_t l = 1; l < lobes; ++l)
-        f = multiply_add(DoubleLanes(block.linear[l + 1]), value[l][batch], f);
+      for (std::size_t l = 1; l < lobes; ++l) f = multiply_add(DoubleLanes(block.linear[l + 1]), value[l][batch], f);
     const Compared<DoubleLanes> at = compared_at<kMetric>(f, points.weight[batch], floor);
     const DoubleLanes r = (at.value - points.compared[batch]) * points.confidence[batch];
     const Robust robust = robust_in_lanes<kLoss>(r, loss_width);

@@ -8,7 +8,8 @@ inline constexpr int kMostColumns = 20;
 /// Of few columns, without memory of its own.
 using GramMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostColumns, kMostColumns>;
 /// Of kd, ks of each lobe and the measured values.
-using LinearGram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostLinear + 1, kMostLinear + 1>;
+using LinearGram =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostLinear + 1, kMostLinear + 1>;
 
 /// The sums over all points at one place: for each block of kd and ks the Gram matrix of the columns [roughness …, kd, ks …, residual],
 /// weighted by the loss.

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "fit/gnuplot.h"
+#include "fit/residual_map.h"
 
 namespace gonio {
 namespace {
@@ -170,6 +171,10 @@ std::vector<Plot> write_plots(const FitResult& result, const std::filesystem::pa
   }
   write_file(folder / "fitted-against-measured.svg", scatter_svg(result));
   plots.push_back({"fitted-against-measured.svg", "fitted against measured BRDF of every point"});
+  if (const auto map = residual_map_svg(result)) {
+    write_file(folder / "residuals.svg", *map);
+    plots.push_back({"residuals.svg", "where the fit misses the scan: log10(fitted/measured) by direction"});
+  }
   return plots;
 }
 

@@ -20,8 +20,8 @@ struct Plot {
   std::string file, caption;  ///< name inside the folder; what it shows
 };
 
-/// Writes the plots that suit the scan: in-plane-log.svg and in-plane-linear.svg where it has curves, and
-/// fitted-against-measured.svg.
+/// Writes the plots that suit the scan: in-plane-log.svg and in-plane-linear.svg where it has curves,
+/// fitted-against-measured.svg and residuals.svg.
 std::vector<Plot> write_plots(const FitResult& result, const std::filesystem::path& folder);
 
 }  // namespace gonio

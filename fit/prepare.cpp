@@ -125,8 +125,7 @@ std::vector<bool> spectral_places(const FitRequest& request, const FitResult& re
   const LobeSum& model = request.model;
   std::vector<bool> spectral(model.parameters().size(), false);
   for (const std::string& name : request.spectral) {
-    if (name != "kd" && name != "ks")
-      throw input_error("{}: cannot differ between wavelengths; expected kd, ks", name);
+    if (name != "kd" && name != "ks") throw input_error("{}: cannot differ between wavelengths; expected kd, ks", name);
     if (result.wavelength_nm.size() < 2)
       throw input_error("{} of each wavelength: the scan states {}; expected two or more wavelengths", name,
                         result.wavelength_nm.size());
@@ -149,7 +148,8 @@ void add_index(const FitRequest& request, std::vector<FreeParameter>& free) {
   if (request.model.first().id == ModelId::lambert)
     throw input_error("n: lambert has no lobe; expected a model with Fresnel reflection");
   for (const ModelSpec& lobe : request.model.lobes())
-    if (std::any_of(lobe.info().parameters.begin(), lobe.info().parameters.end(), [](auto& p) { return p.name == "n"; }))
+    if (std::any_of(lobe.info().parameters.begin(), lobe.info().parameters.end(),
+                    [](auto& p) { return p.name == "n"; }))
       throw input_error("n: {} has an exponent of this name; expected a model without one to free the refractive index",
                         lobe.info().name);
   free.push_back({FreeParameter::kIndex, "n", "1", 1.01, 3, false});
@@ -172,8 +172,12 @@ std::vector<FreeParameter> free_parameters(const Measurement& scan, const FitReq
     const ParameterInfo& p = model.parameters()[i];
     if (request.held.contains(std::string(p.name))) continue;
     const double scale = p.linear ? unit : 1, wider = p.linear && unit != 1 ? kRelativeDecades : 1;
-    const FreeParameter parameter{i, std::string(p.name), std::string(p.unit), p.fit_lo * scale / wider,
-                                  p.fit_hi * scale * wider, model.is_diffuse(i) || model.is_scale(i)};
+    const FreeParameter parameter{i,
+                                  std::string(p.name),
+                                  std::string(p.unit),
+                                  p.fit_lo * scale / wider,
+                                  p.fit_hi * scale * wider,
+                                  model.is_diffuse(i) || model.is_scale(i)};
     if (spectral[i])
       add_spectral(parameter, result.wavelength_nm, free);
     else
@@ -201,8 +205,8 @@ FitProblem empty_problem(const Measurement& scan, const FitRequest& request, con
 void set_confidence(const Measurement& scan, const FitRequest& request, FitResult& result,
                     std::vector<FitPoint>& points) {
   if (request.metric != Metric::likelihood) return;
-  const bool stated = std::all_of(scan.points.begin(), scan.points.end(),
-                                  [](const ScanPoint& p) { return p.f_std_per_sr > 0; });
+  const bool stated =
+      std::all_of(scan.points.begin(), scan.points.end(), [](const ScanPoint& p) { return p.f_std_per_sr > 0; });
   if (!stated && !(request.relative_sd > 0))
     throw input_error(
         "{}: no standard deviation is known of every value; expected brdf_std_per_sr > 0, 8 repeats or reciprocal "

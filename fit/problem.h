@@ -77,7 +77,7 @@ class FitProblem {
   double loss_width = 1;  ///< in the residuals' unit
   std::vector<FitPoint> points;
   std::vector<FreeParameter> free;
-  std::vector<double> values;  ///< of all the model's parameters; the free ones are replaced
+  std::vector<double> values;          ///< of all the model's parameters; the free ones are replaced
   std::vector<ApertureNode> aperture;  ///< what f is averaged over; empty: the centre alone
 
   /// f_r of each point.

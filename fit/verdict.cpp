@@ -66,8 +66,9 @@ double neighbour_correlation(const Prepared& prepared, const FitResult& result) 
   double products = 0, squares = 0, last = 0;
   for (std::size_t at = 0; at < order.size(); ++at) {
     const FitPoint& point = prepared.points[order[at]];
-    const double residual = point.confidence * (prepared.problem.compared(result.points[order[at]].fitted_per_sr, point) -
-                                                prepared.problem.compared(point.f_per_sr, point));
+    const double residual =
+        point.confidence * (prepared.problem.compared(result.points[order[at]].fitted_per_sr, point) -
+                            prepared.problem.compared(point.f_per_sr, point));
     if (at > 0 && result.points[order[at]].incidence == result.points[order[at - 1]].incidence)
       products += last * residual;
     squares += square(residual);
@@ -122,7 +123,8 @@ void say_what_is_missed(FitResult& result) {
     text += fmt::format("{}in the tails (below {} of it, {} points) {}{}", text.empty() ? "" : "; ", kTails,
                         parts.tail_points, text.empty() ? "the fit is on average " : "", factor(parts.tails));
   if (text.empty()) return;
-  if (parts.core_points > 0 && parts.tail_points > 0 && !result.model.is_sum() && result.model.first().id != ModelId::lambert)
+  if (parts.core_points > 0 && parts.tail_points > 0 && !result.model.is_sum() &&
+      result.model.first().id != ModelId::lambert)
     text += ": a narrow core on long tails, which a single Gaussian lobe cannot follow";
   result.warnings.push_back(text);
 }

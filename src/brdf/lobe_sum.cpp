@@ -31,7 +31,8 @@ LobeSum::LobeSum(std::vector<ModelSpec> lobes) : lobes_(std::move(lobes)) {
   }
   for (const ModelSpec& lobe : lobes_)
     if (lobe.id == ModelId::lambert || lobe.id == ModelId::mirror)
-      throw input_error("{}: {} is no lobe to add (a sum has kd already); expected models with a lobe", name(), lobe.info().name);
+      throw input_error("{}: {} is no lobe to add (a sum has kd already); expected models with a lobe", name(),
+                        lobe.info().name);
   const auto take = [&](std::size_t lobe, std::size_t at, const std::string& suffix) {
     ParameterInfo info = lobes_[lobe].info().parameters[at];
     if (!suffix.empty()) info.name = kept(std::string(info.name) + suffix);

@@ -62,7 +62,8 @@ std::vector<Brdf<double>> make_brdfs(const LobeSum& sum, std::span<const double>
 
 /// f_r in sr⁻¹ of lobes that add up.
 template <class T, class G>
-T evaluate(std::span<const Brdf<T>> lobes, const Directions<G>& w, const Interface<T>& surface, const T& wavelength_um) {
+T evaluate(std::span<const Brdf<T>> lobes, const Directions<G>& w, const Interface<T>& surface,
+           const T& wavelength_um) {
   T f = evaluate(lobes[0], w, surface, wavelength_um);
   for (const Brdf<T>& lobe : lobes.subspan(1)) f += evaluate_lobe(lobe, w, surface, wavelength_um);
   return f;

@@ -106,10 +106,12 @@ Json kept_fit(const fs::path& folder, const std::string& digest) {
 }
 
 /// The record of the inputs is removed first and written last: an interrupted fit is fitted again.
-void fit_anew(Task& task, const FitRequest& request, const fs::path& folder, const std::string& digest) {
-  const FitResult result = fit(read_any(task.measurement), request);
+void fit_anew(Task& task, const FitOptions& options, std::uint64_t seed, const fs::path& folder,
+              const std::string& digest) {
+  const Measurement scan = cleaned(read_any(task.measurement), options);
+  const FitResult result = fit(scan, request_for(options, task.model, seed, scan.aperture_deg));
   make_folder(folder);
-  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg"}) fs::remove(folder / stale);
+  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg", "residuals.svg"}) fs::remove(folder / stale);
   write_plots(result, folder);
   task.fit = to_json(result);
   write_file(folder / "fit.json", task.fit.dump(2) + "\n");
@@ -125,12 +127,11 @@ std::string one_line(std::string text) {
 
 void run_task(Task& task, const BatchArguments& a, std::uint64_t seed) {
   try {
-    const FitRequest request = request_for(a.options, task.model, seed);
     const std::string digest = inputs_digest(task, a, seed);
     const fs::path folder = fs::path(a.out) / task.folder;
     if (!a.refit) task.fit = kept_fit(folder, digest);
     const bool kept = !task.fit.is_null();
-    if (!kept) fit_anew(task, request, folder, digest);
+    if (!kept) fit_anew(task, a.options, seed, folder, digest);
     task.status = !task.fit.value("converged", false) ? "not converged" : kept ? "kept" : "fitted";
   } catch (const std::exception& error) {
     task.status = "failed", task.reason = one_line(error.what()), task.fit = nullptr;
@@ -286,7 +287,7 @@ std::vector<Task> tasks_of(const BatchArguments& a) {
 
 void run_batch(const BatchArguments& a, Common& common) {
   std::vector<Task> tasks = tasks_of(a);
-  request_for(a.options, tasks.front().model, common.seed);  // refuses options that no fit can take
+  request_for(a.options, tasks.front().model, common.seed, 1.0);  // refuses options that no fit can take
   make_folder(a.out);
   int done = 0;
   for (Task& task : tasks) {

@@ -12,9 +12,11 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/arguments.h"
+#include "cli/choice_report.h"
 #include "cli/commands.h"
 #include "cli/fit_options.h"
 #include "fit/choose.h"
+#include "fit/diagnostics_json.h"
 #include "fit/fit_json.h"
 #include "fit/formats/formats.h"
 #include "fit/plots.h"
@@ -29,6 +31,7 @@ struct FitArguments {
   std::vector<std::string> models;
   FitOptions options;
   bool by_wavelength = false;
+  std::optional<double> tolerance;  ///< ΔE_2000
 };
 
 /// Progress on stderr: a line rewritten on a terminal, else one line every few seconds; nothing below a second.
@@ -56,7 +59,7 @@ class Progress {
 };
 
 void print_card(const FitResult& result) {
-  std::cout << fmt::format("{} of {} ({})\n", result.model.name(),
+  std::cout << fmt::format("{} of {} ({})\n", described(result.model),
                            result.name.empty() ? result.measurement_id : result.name,
                            result.material  ? *result.material
                            : result.index() ? "n fitted"
@@ -92,65 +95,20 @@ void print_summary(const std::vector<FitResult>& results) {
                              r.converged ? "yes" : "no");
 }
 
-void write_result(const FitResult& result, const std::filesystem::path& folder) {
+/// The fit with what is to be asked of it: warnings, and the part `diagnostics` of its JSON.
+Json diagnosed(const Measurement& scan, const FitOptions& options, FitResult& result) {
+  const FitDiagnostics found =
+      diagnose(scan, result, options.material.empty() ? std::nullopt : std::optional(options.material));
+  result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
+  Json json = to_json(result);
+  json["diagnostics"] = diagnostics_json(found, result);
+  return json;
+}
+
+void write_result(const FitResult& result, const Json& json, const std::filesystem::path& folder) {
   make_folder(folder);
   write_plots(result, folder);
-  write_file(folder / "fit.json", to_json(result).dump(2) + "\n");
-}
-
-bool retro_of(const LobeSum& model) {
-  return std::any_of(model.lobes().begin(), model.lobes().end(), [](const ModelSpec& lobe) { return lobe.retro; });
-}
-
-Json choice_json(const ModelChoice& choice) {
-  Json candidates = Json::array();
-  for (const Candidate& c : choice.candidates)
-    candidates.push_back({{"model", c.result.model.name()},
-                          {"retro", retro_of(c.result.model)},
-                          {"parameters", c.parameters},
-                          {"rms_log10", c.result.all.rms_log10},
-                          {"held_out_rms_log10", c.held_out_log10},
-                          {"worse_than_best", c.worse},
-                          {"standard_error", c.uncertain},
-                          {"told_apart", c.told_apart},
-                          {"aicc", c.aicc},
-                          {"bic", c.bic}});
-  return {{"sentence", choice.sentence},
-          {"folds", choice.folds},
-          {"best", choice.best},
-          {"chosen", choice.chosen},
-          {"candidates", candidates}};
-}
-
-std::string choice_csv(const ModelChoice& choice) {
-  std::string csv =
-      "model,retro,parameters,rms_log10,held_out_rms_log10,worse_than_best,standard_error,told_apart,aicc,bic\n";
-  for (const Candidate& c : choice.candidates)
-    csv += fmt::format("{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.8g},{:.8g}\n", c.result.model.name(),
-                       retro_of(c.result.model) ? "yes" : "no", c.parameters, c.result.all.rms_log10, c.held_out_log10,
-                       c.worse, c.uncertain, c.told_apart ? "yes" : "no", c.aicc, c.bic);
-  return csv;
-}
-
-void print_choice(const ModelChoice& choice) {
-  const double aicc = std::min_element(choice.candidates.begin(), choice.candidates.end(), [](auto& a, auto& b) {
-                        return a.aicc < b.aicc;
-                      })->aicc;
-  const double bic = std::min_element(choice.candidates.begin(), choice.candidates.end(), [](auto& a, auto& b) {
-                       return a.bic < b.bic;
-                     })->bic;
-  std::cout << fmt::format("{:<56} {:>10} {:>10} {:>10} {:>22} {:>10} {:>10}\n", "model", "parameters", "rms_log10",
-                           "held out", "excess over the best", "AICc", "BIC");
-  for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
-    const Candidate& c = choice.candidates[i];
-    std::cout << fmt::format(
-        "{:<56} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}\n",
-        described(c.result.model), c.parameters,
-        c.result.all.rms_log10, c.held_out_log10,
-        i == choice.best ? std::string("best") : fmt::format("{:.2g} +- {:.2g}", c.worse, c.uncertain), c.aicc - aicc,
-        c.bic - bic, i == choice.chosen ? "  <- chosen" : "");
-  }
-  std::cout << choice.sentence << "\n\n";
+  write_file(folder / "fit.json", json.dump(2) + "\n");
 }
 
 /// --model auto: the chosen fit in OUT as if its model had been named, beside choice.csv.
@@ -161,21 +119,21 @@ void run_choice(const Measurement& scan, const FitArguments& arguments, Common& 
         "--model auto: takes no --set, --free or --variant, which are a model's own; expected it without");
   const FitRequest request = request_for(o, "lambert", common.seed, scan.aperture_deg);
   Progress progress("auto");
-  const ModelChoice choice =
-      choose_model(scan, request, all_candidates(scan),
-                   [&](const std::string& what, int done, int count) { progress(what, done, count); });
-  const FitResult& chosen = choice.candidates[choice.chosen].result;
+  ModelChoice choice = choose_model(scan, request, all_candidates(scan),
+                                    [&](const std::string& what, int done, int count) { progress(what, done, count); });
+  const std::vector<VisibleError> seen =
+      arguments.tolerance ? content_with(choice, *arguments.tolerance) : std::vector<VisibleError>();
+  FitResult chosen = choice.candidates[choice.chosen].result;
   const std::filesystem::path out = arguments.out;
-  write_result(chosen, out);
-  write_file(out / "choice.csv", choice_csv(choice));
-  Json json = to_json(chosen);
-  json["choice"] = choice_json(choice);
-  write_file(out / "fit.json", json.dump(2) + "\n");
+  Json json = diagnosed(scan, o, chosen);
+  json["choice"] = choice_json(choice, seen);
+  write_result(chosen, json, out);
+  write_file(out / "choice.csv", choice_csv(choice, seen));
   if (!chosen.converged) common.exit_code = 1;
   if (common.json) {
     std::cout << json.dump(2) << '\n';
   } else {
-    print_choice(choice);
+    print_choice(choice, seen);
     print_card(chosen);
   }
 }
@@ -191,9 +149,10 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
   Json json = Json::array();
   std::string csv;
   for (const double nm : wavelengths) {
-    const FitResult result = fit(at_wavelength(scan, nm), request);
-    write_result(result, out / fmt::format("{:g}nm", nm));
-    json.push_back(to_json(result));
+    const Measurement one = at_wavelength(scan, nm);
+    FitResult result = fit(one, request);
+    json.push_back(diagnosed(one, arguments.options, result));
+    write_result(result, json.back(), out / fmt::format("{:g}nm", nm));
     if (!common.json) print_card(result);
     if (!result.converged) common.exit_code = 1;
     if (csv.empty()) {
@@ -211,11 +170,13 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
 }
 
 void run_fit(const FitArguments& arguments, Common& common) {
-  const Measurement scan = read_any(arguments.measurement);
+  const Measurement scan = cleaned(read_any(arguments.measurement), arguments.options);
   for (const std::string& convention : scan.conventions) std::cerr << "read as: " << convention << '\n';
   for (const std::string& note : scan.notes) std::cerr << "note: " << note << '\n';
+  const bool automatic = std::find(arguments.models.begin(), arguments.models.end(), "auto") != arguments.models.end();
+  if (arguments.tolerance && !automatic) throw input_error("--tolerance: is for --model auto; expected it with that");
   if (arguments.by_wavelength) return run_by_wavelength(scan, arguments, common);
-  if (std::find(arguments.models.begin(), arguments.models.end(), "auto") != arguments.models.end()) {
+  if (automatic) {
     if (arguments.models.size() > 1) throw input_error("--model auto: with other models; expected it alone");
     return run_choice(scan, arguments, common);
   }
@@ -230,9 +191,9 @@ void run_fit(const FitArguments& arguments, Common& common) {
   }
   const std::filesystem::path out = arguments.out;
   Json json = Json::array();
-  for (const FitResult& result : results) {
-    write_result(result, results.size() == 1 ? out : out / result.model.name());
-    json.push_back(to_json(result));
+  for (FitResult& result : results) {
+    json.push_back(diagnosed(scan, arguments.options, result));
+    write_result(result, json.back(), results.size() == 1 ? out : out / result.model.name());
     if (!common.json) print_card(result);
     if (!result.converged) common.exit_code = 1;
   }
@@ -264,6 +225,11 @@ void add_fit(CLI::App& app, Common& common) {
           "One or more models, see `gonio models`; auto: the simplest that these data cannot tell from the best")
       ->required();
   add_fit_options(*command, a->options);
+  command
+      ->add_option(
+          "--tolerance", a->tolerance,
+          "auto: a still simpler model will do whose lit sphere differs from the best one's by no more Delta E 2000")
+      ->check(CLI::Range(0.01, 100.0));
   command->add_flag("--by-wavelength", a->by_wavelength,
                     "Every wavelength with parameters of its own: a folder each, and by_wavelength.csv");
   command->add_option("-o,--out", a->out, "Folder to write")->required();

@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "cli/arguments.h"
+#include "fit/formats/formats.h"
+#include "fit/signature.h"
 
 namespace gonio::cli {
 namespace {
@@ -42,17 +44,20 @@ void apply_hold_out(const std::string& text, FitRequest& request) {
 }  // namespace
 
 std::string FitOptions::words() const {
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", metric, loss, weighting, variant, hold_out, material,
-                     floor, intervals, aperture, source, noise, fmt::join(settings, ","), fmt::join(free, ","),
-                     fmt::join(spectral, ","), starts);
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", metric, loss, weighting, variant, hold_out,
+                     material, floor, intervals, aperture, source, noise, fmt::join(settings, ","),
+                     fmt::join(free, ","), fmt::join(spectral, ","), starts) +
+         (signature.empty() ? "" : fmt::format("|{}|{}", signature, signature_scale));
 }
 
 void add_fit_options(CLI::App& command, FitOptions& options) {
-  command.add_option("--metric", options.metric, "log, linear, cuberoot or likelihood (residuals in standard deviations)")
+  command
+      .add_option("--metric", options.metric, "log, linear, cuberoot or likelihood (residuals in standard deviations)")
       ->capture_default_str();
-  command.add_option("--noise", options.noise,
-                     "likelihood: standard deviation as a share of the value, 0.02 (default: as the scan states it, else "
-                     "from its repeats or reciprocal pairs)");
+  command.add_option(
+      "--noise", options.noise,
+      "likelihood: standard deviation as a share of the value, 0.02 (default: as the scan states it, else "
+      "from its repeats or reciprocal pairs)");
   command.add_option("--loss", options.loss, "none, huber or cauchy, with a width if it shall not be found: huber=0.1")
       ->capture_default_str();
   command.add_option("--weighting", options.weighting, "none (default of log) or cosine (default of the others)");
@@ -67,6 +72,13 @@ void add_fit_options(CLI::App& command, FitOptions& options) {
   command.add_option("--aperture", options.aperture,
                      "Average the model over the detector's round aperture: full angle in degrees, or `stated`");
   command.add_option("--source", options.source, "The same of the source's disc: full angle in degrees");
+  command.add_option(
+      "--signature", options.signature,
+      "Scan of the instrument's own beam (no sample, or a mirror), subtracted by the angle from the mirror direction");
+  command
+      .add_option("--signature-scale", options.signature_scale,
+                  "What the signature is multiplied by: the sample's specular reflectance over that of the signature's")
+      ->capture_default_str();
   command.add_option("--free", options.free, "n: fit the refractive index (k = 0) where no material is known");
   command.add_option(
       "--floor", options.floor,
@@ -80,6 +92,11 @@ void add_fit_options(CLI::App& command, FitOptions& options) {
                   "curvature (Student's, of the logarithm) or profile (of the likelihood)")
       ->check(CLI::IsMember({"curvature", "profile"}))
       ->capture_default_str();
+}
+
+Measurement cleaned(Measurement scan, const FitOptions& options) {
+  if (options.signature.empty()) return scan;
+  return without_signature(scan, Signature(read_any(options.signature)), options.signature_scale);
 }
 
 FitRequest request_for(const FitOptions& options, const std::string& model_name, std::uint64_t seed,

@@ -13,6 +13,8 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "cli/picture.h"
+#include "cli/scan_quality.h"
+#include "fit/diagnostics_json.h"
 #include "fit/formats/compare.h"
 #include "fit/formats/formats.h"
 #include "fit/formats/writers.h"
@@ -76,6 +78,7 @@ Json info_json(const Measurement& scan) {
           {"conventions", conventions_of(scan)},
           {"left_out", scan.left_out},
           {"notes", scan.notes},
+          {"quality", quality_json(scan_quality(scan), noise_estimate(scan))},
           {"source", scan.source},
           {"licence", scan.licence},
           {"instrument", scan.instrument},
@@ -108,6 +111,7 @@ void print_info(const Measurement& scan) {
   for (const std::string& convention : conventions_of(scan)) std::cout << "  read as      " << convention << '\n';
   for (const auto& [reason, count] : scan.left_out) std::cout << fmt::format("  left out     {}: {}\n", count, reason);
   for (const std::string& note : scan.notes) std::cout << "  note         " << note << '\n';
+  print_quality(scan_quality(scan), noise_estimate(scan));
 }
 
 void add_info(CLI::App& measurements, Common& common) {

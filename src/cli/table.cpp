@@ -153,8 +153,9 @@ void add_table(CLI::App& app, Common& common) {
   limits->add_option("--at", asked->at_nm, "Wavelength in nm; without it the worst over the visible range of the data");
   limits->add_option("--angles", asked->angles, "Angles in degrees, 0 to 89.99, whose E is shown");
   limits->callback([&common, asked] { run_limits(*asked, common); });
-  command->callback([command, limits, arguments] {
-    if (!command->got_subcommand(limits)) run_table(*arguments);
+  add_table_scatter(*command, common);
+  command->callback([command, arguments] {
+    if (command->get_subcommands().empty()) run_table(*arguments);
   });
 }
 

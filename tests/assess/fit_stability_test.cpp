@@ -84,7 +84,9 @@ TEST_CASE("Atlas: each flaw misleads the parameter it must, and silence is calle
   CHECK_FALSE(entry(atlas, "stray-light").noticed());  // no fit could: it is a diffuse part
   CHECK(entry(atlas, "stray-light").explained());
   CHECK_FALSE(entry(atlas, "wrong-material").noticed());
+  CHECK(says(entry(atlas, "narrow"), "no point within 5 degrees of the mirror direction"));
   CHECK(outside(entry(atlas, "saturated"), "m"));
+  CHECK(says(entry(atlas, "saturated"), "the detector may have been at its end"));
   CHECK(outside(entry(atlas, "stray-light"), "kd"));
   CHECK(entry(atlas, "stray-light").result.value("kd") == Approx(0.01 + kPi<double> * 0.02).epsilon(0.1));
   CHECK(says(entry(atlas, "wrong-model"), "does not explain these data"));
