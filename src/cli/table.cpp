@@ -32,15 +32,16 @@ Json limits_json(Limits limits, const Subject& subject, const std::vector<LimitR
 }
 
 /// "kd = 0.1", "ks_1 = 0.3, ks_2 = 0.5"; where the wavelengths differ "kd = 0.1 to 0.4". lambert has ks = 0.
-std::string linear_values(const Subject& subject, std::string_view kind) {
+std::string linear_values(const Subject& subject, const Limits& limits, std::string_view kind) {
   const auto& parameters = subject.model.sum.parameters();
+  const std::vector<double> values = subject.values_at(limits.range_lo_nm);
+  const bool one_only = limits.range_lo_nm == limits.range_hi_nm || !subject.is_spectral();
   std::string text;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (!parameters[p].name.starts_with(kind)) continue;
     text += fmt::format("{}{} = ", text.empty() ? "" : ", ", parameters[p].name);
-    const bool shared = !subject.is_spectral() || subject.fitted->by_wavelength[p].empty();
-    if (shared) {
-      text += fmt::format("{:g}", subject.model.values[p]);
+    if (one_only || subject.fitted->by_wavelength[p].empty()) {
+      text += fmt::format("{:g}", values[p]);
     } else {
       const auto [least, most] = std::ranges::minmax(subject.fitted->by_wavelength[p]);
       text += fmt::format("{:g} to {:g}", least, most);
@@ -65,7 +66,7 @@ void print_limits(const Limits& limits, const Subject& subject, const std::vecto
   if (!limits.bounded)
     fmt::print("not conserving beyond {:g} deg: this lobe is unbounded at grazing; the limits hold up to there\n", limits.theta_max_deg);
   const bool sum = subject.model.sum.is_sum();
-  const std::string kd = linear_values(subject, "kd"), ks = linear_values(subject, "ks");
+  const std::string kd = linear_values(subject, limits, "kd"), ks = linear_values(subject, limits, "ks");
   fmt::print("ks_max = {:.6f} ({}kd = 0)\nkd_max = {:.6f} ({})\n", limits.ks_max, sum ? "all ks times this; " : "",
              limits.kd_max, ks);
   fmt::print("{}, {}: largest kd rho_d + {} = {:.6f} at {:g} deg; (43) {}\n", kd, ks, sum ? "E" : "ks E",

@@ -110,7 +110,7 @@ TEST_CASE("white furnace: a Lambert sphere vanishes", "[render]") {
 TEST_CASE("white furnace: sphere, ground and light all vanish together", "[render]") {
   Scene scene = furnace(ModelSpec{ModelId::lambert}, {1});
   scene.camera = {{0, -6, 3}, {0, 0, 0}, 30, kPixels, kPixels};
-  scene.materials.push_back({"white ground", {ModelId::lambert}, {1}, "perfect", {}});
+  scene.materials.push_back({"white ground", ModelSpec{ModelId::lambert}, {1}, "perfect", {}});
   scene.ground = GroundObject{-1, 50, 1};
   scene.lights = {{{-3, -3, 3}, 1, {1, "constant"}}, {{3, -2, 3}, 0.5, {1, "constant"}}};
   for (const Strategy strategy : {Strategy::mis, Strategy::light, Strategy::brdf}) {

@@ -159,7 +159,7 @@ TEST_CASE("every corner of every model's parameter box renders finite, non-negat
       for (std::size_t p = 0; p < info.parameters.size(); ++p)
         values.push_back((corner >> p & 1U) != 0 ? info.parameters[p].hi : info.parameters[p].lo);
       for (const char* material : {"Au_Johnson", "perfect"}) {
-        const Scene scene = small({"corner", {info.id}, values, material, {}}, {400, 550, 700});
+        const Scene scene = small({"corner", ModelSpec{info.id}, values, material, {}}, {400, 550, 700});
         const RenderResult result = render(scene, settings);
         std::size_t bad = 0;
         for (const double radiance : result.image.radiance) bad += !(std::isfinite(radiance) && radiance >= 0);
