@@ -76,9 +76,13 @@ struct FitReader {
       const std::vector<double> all = values(given, own[i], relative);
       material.values.push_back(all.front());
       if (!given.at(std::string(own[i].name)).at("value").is_array()) continue;
+      if (!material.model.is_diffuse(i) && !material.model.is_scale(i))
+        throw input_error("{}: {} is a list; expected one number (kd and ks alone differ between wavelengths)", file,
+                          own[i].name);
       if (all.size() != material.wavelength_nm.size())
         throw input_error("{}: {} has {} values; expected one for each of {} wavelengths", file, own[i].name,
                           all.size(), material.wavelength_nm.size());
+      if (all.size() == 1) continue;  // of one wavelength: as good as shared
       material.by_wavelength.resize(own.size());
       material.by_wavelength[i] = all;
     }

@@ -203,6 +203,13 @@ TEST_CASE("kd and ks of each wavelength beside a shape that all share", "[fit][s
   nlohmann::ordered_json short_of_one = json;
   short_of_one["parameters"]["kd"]["value"].erase(0);
   CHECK_THROWS_AS(parse_fit(short_of_one.dump(), "fit.json"), InputError);
+  nlohmann::ordered_json shapes = json;
+  shapes["parameters"]["m"]["value"] = {0.1, 0.2, 0.3, 0.4};
+  CHECK_THROWS_AS(parse_fit(shapes.dump(), "fit.json"), InputError);
+  nlohmann::ordered_json one = json;
+  one["wavelength_nm"] = {550};
+  for (const char* name : {"kd", "ks"}) one["parameters"][name]["value"] = {0.25};
+  CHECK(parse_fit(one.dump(), "fit.json").values_at(550) == std::vector<double>{result.value("m"), 0.25, 0.25});
 
   // A wavelength without a lobe: its ks is 0, the others stand.
   const auto dark = [](bool diffuse, double at_nm) { return diffuse || at_nm != 600 ? 1.0 : 0.0; };
