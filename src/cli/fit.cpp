@@ -14,10 +14,9 @@
 #include "cli/arguments.h"
 #include "cli/choice_report.h"
 #include "cli/commands.h"
+#include "cli/diagnosed.h"
 #include "cli/fit_options.h"
 #include "fit/choose.h"
-#include "fit/diagnostics_json.h"
-#include "fit/fit_json.h"
 #include "fit/formats/formats.h"
 #include "fit/plots.h"
 
@@ -95,16 +94,6 @@ void print_summary(const std::vector<FitResult>& results) {
                              r.converged ? "yes" : "no");
 }
 
-/// The fit with what is to be asked of it: warnings, and the part `diagnostics` of its JSON.
-Json diagnosed(const Measurement& scan, const FitOptions& options, FitResult& result) {
-  const FitDiagnostics found =
-      diagnose(scan, result, options.material.empty() ? std::nullopt : std::optional(options.material));
-  result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
-  Json json = to_json(result);
-  json["diagnostics"] = diagnostics_json(found, result);
-  return json;
-}
-
 void write_result(const FitResult& result, const Json& json, const std::filesystem::path& folder) {
   make_folder(folder);
   write_plots(result, folder);
@@ -117,7 +106,7 @@ void run_choice(const Measurement& scan, const FitArguments& arguments, Common& 
   if (!o.settings.empty() || !o.free.empty() || !o.variant.empty())
     throw input_error(
         "--model auto: takes no --set, --free or --variant, which are a model's own; expected it without");
-  const FitRequest request = request_for(o, "lambert", common.seed, scan.aperture_deg);
+  const FitRequest request = request_for_scan(o, "lambert", common.seed, scan);
   Progress progress("auto");
   ModelChoice choice = choose_model(scan, request, all_candidates(scan),
                                     [&](const std::string& what, int done, int count) { progress(what, done, count); });
@@ -144,7 +133,7 @@ void run_by_wavelength(const Measurement& scan, const FitArguments& arguments, C
   if (wavelengths.size() < 2 || arguments.models.size() != 1 || arguments.models[0] == "auto")
     throw input_error("--by-wavelength: {} wavelengths and {} models; expected 2 or more wavelengths and one model",
                       wavelengths.size(), arguments.models.size());
-  const FitRequest request = request_for(arguments.options, arguments.models[0], common.seed, scan.aperture_deg);
+  const FitRequest request = request_for_scan(arguments.options, arguments.models[0], common.seed, scan);
   const std::filesystem::path out = arguments.out;
   Json json = Json::array();
   std::string csv;
@@ -182,7 +171,7 @@ void run_fit(const FitArguments& arguments, Common& common) {
   }
   std::vector<FitRequest> requests;
   for (const std::string& name : arguments.models)
-    requests.push_back(request_for(arguments.options, name, common.seed, scan.aperture_deg));
+    requests.push_back(request_for_scan(arguments.options, name, common.seed, scan));
   std::vector<FitResult> results;
   for (FitRequest& request : requests) {
     Progress progress(request.model.name());
