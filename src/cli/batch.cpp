@@ -12,9 +12,9 @@
 #include "base/files.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/diagnosed.h"
 #include "cli/fit_options.h"
 #include "fit/fit.h"
-#include "fit/fit_json.h"
 #include "fit/formats/formats.h"
 #include "fit/plots.h"
 #include "reports/html.h"
@@ -109,11 +109,11 @@ Json kept_fit(const fs::path& folder, const std::string& digest) {
 void fit_anew(Task& task, const FitOptions& options, std::uint64_t seed, const fs::path& folder,
               const std::string& digest) {
   const Measurement scan = cleaned(read_any(task.measurement), options);
-  const FitResult result = fit(scan, request_for(options, task.model, seed, scan.aperture_deg));
+  FitResult result = fit(scan, request_for(options, task.model, seed, scan.aperture_deg));
   make_folder(folder);
   for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg", "residuals.svg"}) fs::remove(folder / stale);
   write_plots(result, folder);
-  task.fit = to_json(result);
+  task.fit = diagnosed(scan, options, result);
   write_file(folder / "fit.json", task.fit.dump(2) + "\n");
   const Json inputs{{"gonio_batch", 1}, {"digest", digest}, {"measurement", task.measurement.string()}};
   write_file(folder / "inputs.json", inputs.dump(2) + "\n");

@@ -14,13 +14,11 @@
 #include "cli/arguments.h"
 #include "cli/choice_report.h"
 #include "cli/commands.h"
+#include "cli/diagnosed.h"
 #include "cli/fit_options.h"
 #include "fit/choose.h"
-#include "fit/diagnostics_json.h"
-#include "fit/fit_json.h"
 #include "fit/formats/formats.h"
 #include "fit/plots.h"
-#include "fit/polarisation.h"
 
 namespace gonio::cli {
 namespace {
@@ -96,20 +94,6 @@ void print_summary(const std::vector<FitResult>& results) {
     std::cout << fmt::format("{:<20} {:>12.4g} {:>12} {:>12}\n", r.model.name(), r.all.rms_log10,
                              r.held_out ? fmt::format("{:.4g}", r.held_out->rms_log10) : "none",
                              r.converged ? "yes" : "no");
-}
-
-/// The fit with what is to be asked of it: warnings, and the part `diagnostics` of its JSON.
-Json diagnosed(const Measurement& scan, const FitOptions& options, FitResult& result) {
-  const FitDiagnostics found =
-      diagnose(scan, result, options.material.empty() ? std::nullopt : std::optional(options.material));
-  result.warnings.insert(result.warnings.end(), found.warnings.begin(), found.warnings.end());
-  Json json = to_json(result);
-  json["diagnostics"] = diagnostics_json(found, result);
-  if (!scan.conventions.empty()) json["source"]["read_as"] = scan.conventions;
-  const MuellerJudgement polarisation = judge_polarisation(scan, result);
-  json["polarisation"] = to_json(polarisation, scan);
-  if (const std::string words = sentence(polarisation); !words.empty()) json["polarisation"]["sentence"] = words;
-  return json;
 }
 
 void write_result(const FitResult& result, const Json& json, const std::filesystem::path& folder) {

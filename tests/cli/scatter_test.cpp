@@ -87,3 +87,18 @@ TEST_CASE("fit writes its diagnostics and where it misses the scan", "[cli][diag
   const std::string map = content_of(scratch.path("out/residuals.svg"));
   CHECK(map.find("</svg>") != std::string::npos);
 }
+
+TEST_CASE("The likelihood takes what a scan's reciprocal pairs show where it states no standard deviation",
+          "[cli][quality]") {
+  const Scratch scratch;
+  const std::string tape = measurement("retro-tape-yellow");
+  const Json fit = json_of(
+      {"fit", tape, "--model", "oren-nayar", "--metric", "likelihood", "--starts", "2", "-o", scratch.path("a")});
+  const double noise = json_of({"measurements", "info", tape})["quality"]["noise"]["relative_sd"];
+  CHECK(fit["relative_sd"].get<double>() == noise);
+  CHECK(fit["warnings"].dump().find("no standard deviation is stated") != std::string::npos);
+  check_refused(scratch,
+                {"fit", measurement("ptfe-sintered-nist-532nm"), "--model", "lambert", "--metric", "likelihood", "-o",
+                 scratch.path("b")},
+                "no standard deviation is known");
+}
