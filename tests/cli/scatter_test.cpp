@@ -96,9 +96,9 @@ TEST_CASE("The likelihood takes what a scan's reciprocal pairs show where it sta
       {"fit", tape, "--model", "oren-nayar", "--metric", "likelihood", "--starts", "2", "-o", scratch.path("a")});
   const double noise = json_of({"measurements", "info", tape})["quality"]["noise"]["relative_sd"];
   CHECK(fit["relative_sd"].get<double>() == noise);
-  CHECK(fit["warnings"].dump().find("no standard deviation is stated") != std::string::npos);
+  CHECK(fit["warnings"].dump().find("standard deviations are not stated") != std::string::npos);
   check_refused(scratch,
                 {"fit", measurement("ptfe-sintered-nist-532nm"), "--model", "lambert", "--metric", "likelihood", "-o",
                  scratch.path("b")},
-                "no standard deviation is known");
+                "the standard deviation of its values is not known");
 }
