@@ -97,33 +97,34 @@ auto cost_of(const Candidate& c) {
   return std::tuple(c.parameters, c.result.model.needs_wavelength(), retro);
 }
 
+double mean_over(const std::vector<int>& points, const std::vector<double>& of) {
+  double sum = 0, all = 0;
+  for (std::size_t s = 0; s < points.size(); ++s) sum += points[s] * of[s], all += points[s];
+  return sum / all;
+}
+
+/// Of the mean of scans that count by their points.
+double standard_error(const std::vector<int>& points, const std::vector<double>& of) {
+  const double middle = mean_over(points, of), scans = static_cast<double>(of.size());
+  double squares = 0, all = 0;
+  for (std::size_t s = 0; s < of.size(); ++s) squares += square(points[s] * (of[s] - middle)), all += points[s];
+  return std::sqrt(squares * scans / std::max(1.0, scans - 1)) / all;
+}
+
 /// Excess of each candidate over the best, scan by scan.
 void compare(ModelChoice& choice) {
   const std::vector<int>& points = choice.scan_points;
-  double all = 0;
-  for (const int n : points) all += n;
-  const auto mean = [&](const std::vector<double>& of) {
-    double sum = 0;
-    for (std::size_t s = 0; s < of.size(); ++s) sum += points[s] * of[s];
-    return sum / all;
-  };
-  for (Candidate& c : choice.candidates) c.held_out_log10 = std::sqrt(mean(c.scan_error));
+  for (Candidate& c : choice.candidates) c.held_out_log10 = std::sqrt(mean_over(points, c.scan_error));
   const auto less = [](const Candidate& a, const Candidate& b) { return a.held_out_log10 < b.held_out_log10; };
   choice.best = static_cast<std::size_t>(std::min_element(choice.candidates.begin(), choice.candidates.end(), less) -
                                          choice.candidates.begin());
-  const auto standard_error = [&](const std::vector<double>& of) {
-    const double middle = mean(of), scans = static_cast<double>(of.size());
-    double squares = 0;
-    for (std::size_t s = 0; s < of.size(); ++s) squares += square(points[s] * (of[s] - middle) / all);
-    return std::sqrt(squares * scans / std::max(1.0, scans - 1));
-  };
-  const std::vector<double> best = choice.candidates[choice.best].scan_error;
-  choice.best_uncertain = standard_error(best);
+  const Candidate& best = choice.candidates[choice.best];
+  choice.best_uncertain = standard_error(points, best.scan_error);
+  const double no_matter = kNoMatter * mean_over(points, best.scan_error);
   for (Candidate& c : choice.candidates) {
-    std::vector<double> excess = c.scan_error;
-    for (std::size_t s = 0; s < best.size(); ++s) excess[s] -= best[s];
-    c.worse = mean(excess), c.uncertain = standard_error(excess);
-    c.told_apart = c.worse > std::max(std::min(c.uncertain, choice.best_uncertain), kNoMatter * mean(best));
+    const Excess excess = excess_over(choice, c, best);
+    c.worse = excess.mean, c.uncertain = excess.error;
+    c.told_apart = c.worse > std::max(std::min(c.uncertain, choice.best_uncertain), no_matter);
   }
   const auto enough = std::find_if(choice.candidates.begin(), choice.candidates.end(),
                                    [](const Candidate& c) { return !c.told_apart; });
@@ -151,6 +152,12 @@ std::string described(const LobeSum& model) {
   for (const ModelSpec& lobe : model.lobes())
     names += fmt::format("{}{}{}", names.empty() ? "" : " + ", lobe.info().name, lobe.retro ? " (turned back)" : "");
   return names;
+}
+
+Excess excess_over(const ModelChoice& choice, const Candidate& worse, const Candidate& better) {
+  std::vector<double> excess = worse.scan_error;
+  for (std::size_t s = 0; s < excess.size(); ++s) excess[s] -= better.scan_error[s];
+  return {mean_over(choice.scan_points, excess), standard_error(choice.scan_points, excess)};
 }
 
 std::vector<ModelSpec> all_candidates(const Measurement& measurement) {
@@ -222,20 +229,13 @@ class Judge {
   std::vector<int> count_of_;
 };
 
-/// Mean squared error of what was left out.
-double mean_error(const Candidate& c, const std::vector<int>& points) {
-  double sum = 0, all = 0;
-  for (std::size_t s = 0; s < points.size(); ++s) sum += points[s] * c.scan_error[s], all += points[s];
-  return sum / all;
-}
-
 /// The best candidates of a kind, best first.
 std::vector<const Candidate*> best_of(const ModelChoice& choice, std::size_t most, auto&& wanted) {
   std::vector<const Candidate*> found;
   for (const Candidate& c : choice.candidates)
     if (wanted(c.result.model)) found.push_back(&c);
   std::stable_sort(found.begin(), found.end(), [&](const Candidate* a, const Candidate* b) {
-    return mean_error(*a, choice.scan_points) < mean_error(*b, choice.scan_points);
+    return mean_over(choice.scan_points, a->scan_error) < mean_over(choice.scan_points, b->scan_error);
   });
   if (found.size() > most) found.resize(most);
   return found;

@@ -34,6 +34,12 @@ struct ModelChoice {
 /// "ggx + phong-1975 (turned back)".
 std::string described(const LobeSum& model);
 
+/// Mean squared log10 error of left-out scans by which one candidate exceeds another, and its standard error between scans.
+struct Excess {
+  double mean, error;
+};
+Excess excess_over(const ModelChoice& choice, const Candidate& worse, const Candidate& better);
+
 /// Every model that a scan can be fitted with: the whole list but the mirror and, without a wavelength, those that need one; lobes with
 /// facets or a mirror direction also turned back towards the light.
 std::vector<ModelSpec> all_candidates(const Measurement& measurement);

@@ -9,9 +9,11 @@
 #include <set>
 
 #include "assess/brdf_stability.h"
+#include "assess/fit_stability.h"
 #include "assess/interpolation_charts.h"
 #include "assess/kramers_kronig_charts.h"
 #include "assess/merl_tables_page.h"
+#include "assess/model_choice_page.h"
 #include "assess/published_comparisons_page.h"
 #include "assess/wavelength_charts.h"
 #include "base/error.h"
@@ -114,6 +116,10 @@ const std::vector<PublishedPage>& published_pages() {
        [](const fs::path&, const fs::path& folder) { write_merl_tables(folder); }},
       {"wavelengths", "how few wavelengths a scene needs, against rules that do not know it; every lamp",
        [](const fs::path& published, const fs::path& folder) { write_wavelength_errors(published, folder); }},
+      {"fit-stability", "what is recovered, which starts end where, scans that mislead (42 s)",
+       [](const fs::path&, const fs::path& folder) { write_fit_stability(folder, [](const std::string&) {}, true); }, false},
+      {"model-choice", "the model that auto takes for every bundled measurement, beside one Ward lobe (2 min)",
+       [](const fs::path&, const fs::path& folder) { write_model_choice(folder, [](const std::string&) {}); }, false},
   };
   return pages;
 }

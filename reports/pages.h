@@ -7,12 +7,14 @@
 
 namespace gonio {
 
-/// A page is a folder: README.md, CSV tables, SVG plots. No timings.
+/// A page is a folder: README.md, CSV tables, SVG plots. No timings. Where chance decides (which of many starts found the lowest minimum)
+/// numbers may change between machines, and nobody compares them.
 struct PublishedPage {
   std::string_view name, about;
   /// Makes the page in `folder`. `published` is where the published one lies: a page may keep the results of a long
   /// search there and compute everything else from them again.
   void (*remake)(const std::filesystem::path& published, const std::filesystem::path& folder);
+  bool repeatable = true;  ///< the same numbers on every machine
 };
 const std::vector<PublishedPage>& published_pages();
 

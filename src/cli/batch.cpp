@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/arguments.h"
+#include "cli/choice_report.h"
 #include "cli/commands.h"
 #include "cli/diagnosed.h"
 #include "cli/fit_options.h"
@@ -24,6 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kAuto = "auto";  ///< in place of a model: the simplest that will do (fit/choose.h)
 
 struct BatchArguments {
   std::vector<std::string> measurements, models;
@@ -109,11 +112,20 @@ Json kept_fit(const fs::path& folder, const std::string& digest) {
 void fit_anew(Task& task, const FitOptions& options, std::uint64_t seed, const fs::path& folder,
               const std::string& digest) {
   const Measurement scan = cleaned(read_any(task.measurement), options);
-  FitResult result = fit(scan, request_for(options, task.model, seed, scan.aperture_deg));
+  FitResult result;
+  std::string choice;
+  if (task.model == kAuto) {
+    ChosenFit chosen = chosen_fit(scan, options, seed, {});
+    result = std::move(chosen.result), task.fit = std::move(chosen.json), choice = choice_csv(chosen.choice, {});
+  } else {
+    result = fit(scan, request_for(options, task.model, seed, scan.aperture_deg));
+    task.fit = diagnosed(scan, options, result);
+  }
   make_folder(folder);
-  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg", "residuals.svg"}) fs::remove(folder / stale);
+  for (const char* stale : {"inputs.json", "in-plane-log.svg", "in-plane-linear.svg", "residuals.svg"})
+    fs::remove(folder / stale);
   write_plots(result, folder);
-  task.fit = diagnosed(scan, options, result);
+  if (!choice.empty()) write_file(folder / "choice.csv", choice);
   write_file(folder / "fit.json", task.fit.dump(2) + "\n");
   const Json inputs{{"gonio_batch", 1}, {"digest", digest}, {"measurement", task.measurement.string()}};
   write_file(folder / "inputs.json", inputs.dump(2) + "\n");
@@ -160,7 +172,16 @@ Json error_of(const Task& task, bool held_out) {
   if (task.fit.is_null()) return nullptr;
   const Json& residuals = task.fit.at("residuals");
   if (!held_out) return residuals.at("rms_log10");
+  if (task.fit.contains("choice")) {
+    const Json& choice = task.fit.at("choice");
+    return choice.at("candidates").at(choice.at("chosen").get<std::size_t>()).at("held_out_rms_log10");
+  }
   return residuals.at("held_out").is_null() ? Json(nullptr) : residuals.at("held_out").at("rms_log10");
+}
+
+/// What was fitted in the end: of auto the model that it chose.
+std::string fitted_model(const Task& task) {
+  return task.fit.is_null() ? std::string() : task.fit.at("model").get<std::string>();
 }
 
 /// A cell of a CSV, quoted where it must be (RFC 4180).
@@ -185,13 +206,13 @@ std::vector<std::string> parameter_names(const std::vector<Task>& tasks) {
 /// One row a fit; a parameter has three columns, which hold one number for each wavelength where it has several.
 std::string summary_csv(const std::vector<Task>& tasks) {
   const std::vector<std::string> names = parameter_names(tasks);
-  std::string csv = "measurement,model,status,rms_log10,held_out_rms_log10,points";
+  std::string csv = "measurement,model,status,rms_log10,held_out_rms_log10,points,fitted_model";
   for (const std::string& name : names) csv += fmt::format(",{0},{0}_lo95,{0}_hi95", name);
   csv += ",reason\n";
   for (const Task& task : tasks) {
-    csv += fmt::format("{},{},{},{},{},{}", cell(task.name), task.model, task.status, number(error_of(task, false), 17),
-                       number(error_of(task, true), 17),
-                       task.fit.is_null() ? "" : number(task.fit.at("points").at("used"), 17));
+    csv += fmt::format("{},{},{},{},{},{},{}", cell(task.name), task.model, task.status,
+                       number(error_of(task, false), 17), number(error_of(task, true), 17),
+                       task.fit.is_null() ? "" : number(task.fit.at("points").at("used"), 17), fitted_model(task));
     for (const std::string& name : names) {
       const bool has = !task.fit.is_null() && task.fit.at("parameters").contains(name);
       const Json p = has ? task.fit.at("parameters").at(name) : Json(nullptr);
@@ -228,6 +249,11 @@ std::string parameters_html(const Json& fit) {
   return lines;
 }
 
+std::string sentence_html(const Json& fit) {
+  if (!fit.contains("choice")) return "";
+  return "<br>" + html::escape(fit.at("choice").at("sentence").get<std::string>());
+}
+
 /// Every fit in a table, then its plots; they stay beside the page, which would be large with them inside.
 std::string gallery(const std::vector<Task>& tasks, const fs::path& out) {
   std::vector<std::vector<std::string>> rows;
@@ -236,9 +262,11 @@ std::string gallery(const std::vector<Task>& tasks, const fs::path& out) {
     const std::string folder = link_to(task.folder), status = html::escape(task.status);
     const bool has = !task.fit.is_null();
     rows.push_back({html::escape(task.name),
-                    has ? fmt::format("<a href=\"{}/fit.json\">{}</a>", folder, task.model) : task.model,
+                    has ? fmt::format("<a href=\"{}/fit.json\">{}</a>{}", folder, task.model,
+                                      task.model == kAuto ? ": " + fitted_model(task) : std::string())
+                        : task.model,
                     has ? status : status + ": " + html::escape(task.reason), number(error_of(task, false), 4),
-                    number(error_of(task, true), 4), has ? parameters_html(task.fit) : ""});
+                    number(error_of(task, true), 4), has ? parameters_html(task.fit) + sentence_html(task.fit) : ""});
     if (!has) continue;
     if (task.name != before) figures += fmt::format("<h2>{}</h2>\n", html::escape(task.name));
     before = task.name;
@@ -278,7 +306,7 @@ std::vector<Task> tasks_of(const BatchArguments& a) {
       if (!names.insert(name).second)
         throw input_error("{}: two measurements have this name; expected one folder each", name);
       for (const std::string& model_name : a.models) {
-        lobe_sum(model_name);  // refuses an unknown one
+        if (model_name != kAuto) lobe_sum(model_name);  // refuses an unknown one
         tasks.push_back({path, fs::path(name) / model_name, name, model_name, {}, {}, nullptr});
       }
     }
@@ -287,7 +315,10 @@ std::vector<Task> tasks_of(const BatchArguments& a) {
 
 void run_batch(const BatchArguments& a, Common& common) {
   std::vector<Task> tasks = tasks_of(a);
-  request_for(a.options, tasks.front().model, common.seed, 1.0);  // refuses options that no fit can take
+  if (tasks.front().model == kAuto)
+    refuse_own_options(a.options);
+  else
+    request_for(a.options, tasks.front().model, common.seed, 1.0);  // refuses options that no fit can take
   make_folder(a.out);
   int done = 0;
   for (Task& task : tasks) {
@@ -324,7 +355,10 @@ void add_batch(CLI::App& app, Common& common) {
   add_common(*command, common);
   auto a = std::make_shared<BatchArguments>();
   command->add_option("measurements", a->measurements, "Measurements, or folders that hold measurements")->required();
-  command->add_option("--model", a->models, "One or more models, see `gonio models`")->required();
+  command
+      ->add_option("--model", a->models,
+                   "One or more models, see `gonio models`, sums a+b, or auto: the simplest that will do")
+      ->required();
   add_fit_options(*command, a->options);
   command->add_flag("--refit", a->refit, "Fit again what is finished");
   command->add_option("-o,--out", a->out, "Folder to write")->required();

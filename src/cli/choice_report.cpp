@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "cli/diagnosed.h"
 #include "fit/fitted_material.h"
 
 namespace gonio::cli {
@@ -124,6 +125,26 @@ std::vector<VisibleError> content_with(ModelChoice& choice, double delta_e_2000)
       fmt::format("; for a tolerance of {:g} Delta E 2000 {} will do: on a lit sphere it differs by {:.2g} at most",
                   delta_e_2000, described(choice.candidates[cheapest].result.model), seen[cheapest].largest);
   return seen;
+}
+
+void refuse_own_options(const FitOptions& o) {
+  if (!o.settings.empty() || !o.free.empty() || !o.variant.empty())
+    throw input_error(
+        "--model auto: takes no --set, --free or --variant, which are a model's own; expected it without");
+}
+
+ChosenFit chosen_fit(const Measurement& scan, const FitOptions& options, std::uint64_t seed,
+                     std::optional<double> tolerance,
+                     const std::function<void(const std::string& what, int done, int count)>& progress) {
+  refuse_own_options(options);
+  ChosenFit chosen;
+  chosen.choice =
+      choose_model(scan, request_for(options, "lambert", seed, scan.aperture_deg), all_candidates(scan), progress);
+  if (tolerance) chosen.seen = content_with(chosen.choice, *tolerance);
+  chosen.result = chosen.choice.candidates[chosen.choice.chosen].result;
+  chosen.json = diagnosed(scan, options, chosen.result);
+  chosen.json["choice"] = choice_json(chosen.choice, chosen.seen);
+  return chosen;
 }
 
 }  // namespace gonio::cli

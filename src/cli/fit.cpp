@@ -104,28 +104,19 @@ void write_result(const FitResult& result, const Json& json, const std::filesyst
 
 /// --model auto: the chosen fit in OUT as if its model had been named, beside choice.csv.
 void run_choice(const Measurement& scan, const FitArguments& arguments, Common& common) {
-  const FitOptions& o = arguments.options;
-  if (!o.settings.empty() || !o.free.empty() || !o.variant.empty())
-    throw input_error(
-        "--model auto: takes no --set, --free or --variant, which are a model's own; expected it without");
-  const FitRequest request = request_for(o, "lambert", common.seed, scan.aperture_deg);
   Progress progress("auto");
-  ModelChoice choice = choose_model(scan, request, all_candidates(scan),
-                                    [&](const std::string& what, int done, int count) { progress(what, done, count); });
-  const std::vector<VisibleError> seen =
-      arguments.tolerance ? content_with(choice, *arguments.tolerance) : std::vector<VisibleError>();
-  FitResult chosen = choice.candidates[choice.chosen].result;
+  const ChosenFit chosen =
+      chosen_fit(scan, arguments.options, common.seed, arguments.tolerance,
+                 [&](const std::string& what, int done, int count) { progress(what, done, count); });
   const std::filesystem::path out = arguments.out;
-  Json json = diagnosed(scan, o, chosen);
-  json["choice"] = choice_json(choice, seen);
-  write_result(chosen, json, out);
-  write_file(out / "choice.csv", choice_csv(choice, seen));
-  if (!chosen.converged) common.exit_code = 1;
+  write_result(chosen.result, chosen.json, out);
+  write_file(out / "choice.csv", choice_csv(chosen.choice, chosen.seen));
+  if (!chosen.result.converged) common.exit_code = 1;
   if (common.json) {
-    std::cout << json.dump(2) << '\n';
+    std::cout << chosen.json.dump(2) << '\n';
   } else {
-    print_choice(choice, seen);
-    print_card(chosen, json);
+    print_choice(chosen.choice, chosen.seen);
+    print_card(chosen.result, chosen.json);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
 #include "reports/pages.h"
@@ -27,6 +28,9 @@ void list_pages(bool json) {
 
 void remake(const ReportArguments& arguments, Common& common) {
   const PublishedPage& page = published_page(arguments.name);
+  if (arguments.check && !page.repeatable)
+    throw input_error("--check: numbers of {} may change between machines; expected a page where they do not",
+                      page.name);
   const std::filesystem::path published = data_folder("reports") / page.name;
   const std::string out = arguments.out.empty() ? "out/reports/" + arguments.name : arguments.out;
   page.remake(published, out);

@@ -53,7 +53,7 @@ TEST_CASE("a batch fits all, keeps what is finished and lists what fails", "[cli
   const std::string summary = content_of(scratch.path("out/summary.csv")),
                     page = content_of(scratch.path("out/index.html"));
   CHECK(std::count(summary.begin(), summary.end(), '\n') == 7);
-  CHECK(summary.starts_with("measurement,model,status,rms_log10,held_out_rms_log10,points,kd,kd_lo95,kd_hi95"));
+  CHECK(summary.starts_with("measurement,model,status,rms_log10,held_out_rms_log10,points,fitted_model,kd,kd_lo95,kd_hi95"));
   CHECK_THAT(page, Catch::Matchers::Contains("a/lambert/in-plane-log.svg") && Catch::Matchers::Contains("b.csv:2") &&
                        Catch::Matchers::Contains("c,%2050%25/lambert/fit.json"));
 
