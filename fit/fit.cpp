@@ -154,7 +154,7 @@ void order_lobes(const FitProblem& problem, std::vector<double>& x) {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> places;
     for (std::size_t i = 0; i < problem.free.size(); ++i) {
       const std::size_t place = problem.free[i].place;
-      if (place == FreeParameter::kIndex || model.is_diffuse(place) || model.place(place).lobe != lobe) continue;
+      if (problem.free[i].of_surface() || model.is_diffuse(place) || model.place(place).lobe != lobe) continue;
       places.emplace(std::pair(model.place(place).parameter, problem.free[i].group), i);
     }
     return places;
@@ -206,7 +206,7 @@ FittedParameter free_parameter(const FitProblem& problem, const Solution& soluti
                                std::size_t i) {
   const FreeParameter& box = problem.free[i];
   FittedParameter p;
-  p.name = box.place == FreeParameter::kIndex ? box.name : std::string(problem.model.parameters()[box.place].name);
+  p.name = box.of_surface() ? box.name : std::string(problem.model.parameters()[box.place].name);
   p.unit = box.unit, p.group = box.group, p.value = std::exp(solution.x[i]);
   p.at_bound = errors.at_bound[i], p.identifiable = errors.identifiable[i];
   p.lo95 = box.lo, p.hi95 = box.hi;
@@ -229,13 +229,13 @@ void store_parameters(const FitProblem& problem, const Solution& solution, const
                       const AtZero& at_zero, FitResult& result) {
   const auto& infos = problem.model.parameters();
   std::vector<std::vector<FittedParameter>> fitted(infos.size());
-  std::optional<FittedParameter> n;
+  std::vector<FittedParameter> of_surface;
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
     const FreeParameter& box = problem.free[i];
     const FittedParameter p = free_parameter(problem, solution, errors, i);
     if (p.at_bound) result.warnings.push_back(fmt::format("{} is at the bound of its box ({:.6g})", box.name, p.value));
-    if (box.place == FreeParameter::kIndex)
-      n = p;
+    if (box.of_surface())
+      of_surface.push_back(p);
     else
       fitted[box.place].push_back(p);
   }
@@ -248,7 +248,7 @@ void store_parameters(const FitProblem& problem, const Solution& solution, const
     std::stable_sort(fitted[i].begin(), fitted[i].end(), [](auto& a, auto& b) { return a.group < b.group; });
     result.parameters.insert(result.parameters.end(), fitted[i].begin(), fitted[i].end());
   }
-  if (n) result.parameters.push_back(*n);
+  result.parameters.insert(result.parameters.end(), of_surface.begin(), of_surface.end());
 }
 
 void store_correlation(const FitProblem& problem, const Uncertainty& errors, FitResult& result) {
@@ -302,12 +302,12 @@ std::vector<double> FitResult::values() const {
   return all;
 }
 
-std::optional<double> FitResult::index() const {
-  // A model's own parameter may be called n, too (Phong's exponent): it is not freed then.
+std::optional<double> FitResult::of_surface(std::string_view name) const {
+  // A model's own parameter may have the name, too (Phong's exponent n): it is not freed then.
   const auto& own = model.parameters();
-  if (std::any_of(own.begin(), own.end(), [](const ParameterInfo& p) { return p.name == "n"; })) return std::nullopt;
-  const FittedParameter* n = find("n");
-  return n ? std::optional(n->value) : std::nullopt;
+  if (std::any_of(own.begin(), own.end(), [&](const ParameterInfo& p) { return p.name == name; })) return std::nullopt;
+  const FittedParameter* found = find(name);
+  return found ? std::optional(found->value) : std::nullopt;
 }
 
 FitResult fit(const Measurement& measurement, const FitRequest& request) {

@@ -34,7 +34,8 @@ struct FitRequest {
   /// Metric::likelihood: standard deviation as a share s of |y| + f0 (values that came out low count for more: f comes
   /// out low by about s²); 0: as the scan states it, else from its repeats or reciprocal pairs.
   double relative_sd = 0;
-  bool free_n = false;     ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
+  bool free_n = false;                 ///< fits n (k = 0, box 1.01 to 3) instead of taking a material
+  bool free_k = false;                 ///< fits k too (n 0.02 to 10, k 1e-3 to 15)
   std::map<std::string, double> held;  ///< parameters held at a value
   std::vector<double> begin;           ///< values of the model's parameters where one more start begins
   Loss loss = Loss::none;              ///< what becomes of large residuals
@@ -92,7 +93,7 @@ struct FitResult {
   std::vector<double> wavelength_nm;    ///< empty: not stated
   std::optional<double> assumed_wavelength_nm;
   std::vector<FittedParameter>
-      parameters;  ///< in the model's order, those of each wavelength in a row; then n where it was fitted
+      parameters;  ///< in the model's order, those of each wavelength in a row; then n and k where they were fitted
   bool converged = false;
 
   Residuals all;
@@ -117,7 +118,9 @@ struct FitResult {
   double value(std::string_view parameter) const;                 ///< InputError when there is none
   std::vector<double> values() const;  ///< in the order of the model's parameters, of the first wavelength
   std::vector<double> by_wavelength(std::string_view parameter) const;  ///< all of the name
-  std::optional<double> index() const;                                  ///< n, where it was fitted
+  std::optional<double> index() const { return of_surface("n"); }       ///< where it was fitted
+  std::optional<double> absorption() const { return of_surface("k"); }  ///< likewise
+  std::optional<double> of_surface(std::string_view name) const;
 };
 
 /// Fits a model to a scan. InputError for what cannot be fitted (no wavelength where one is needed, an unknown

@@ -65,6 +65,15 @@ struct FitReader {
         throw input_error("{}: {} is {}; expected {} to {}", file, name, one, info.lo, info.hi);
     return all;
   }
+  /// Fitted n or k, unless it is the name of a model's own parameter.
+  std::optional<double> of_surface(const json& given, const std::vector<ParameterInfo>& own, const char* name) const {
+    if (std::any_of(own.begin(), own.end(), [&](const ParameterInfo& p) { return p.name == name; }))
+      return std::nullopt;
+    if (!given.contains(name)) return std::nullopt;
+    const double value = number(at(given.at(name), "value", "a number"), name);
+    if (!(value > 0)) throw input_error("{}: {} is {}; expected more than 0", file, name, value);
+    return value;
+  }
   void parameters(const json& root, FittedMaterial& material) const {
     const json& given = at(root, "parameters", "the fitted values");
     if (!given.is_object())
@@ -86,10 +95,8 @@ struct FitReader {
       material.by_wavelength.resize(own.size());
       material.by_wavelength[i] = all;
     }
-    if (std::any_of(own.begin(), own.end(), [](const ParameterInfo& p) { return p.name == "n"; })) return;
-    if (!given.contains("n")) return;
-    material.n = number(at(given.at("n"), "value", "a number"), "n");
-    if (!(*material.n > 0)) throw input_error("{}: n is {}; expected more than 0", file, *material.n);
+    material.n = of_surface(given, own, "n"), material.k = of_surface(given, own, "k");
+    if (material.k && !material.n) throw input_error("{}: k without n; expected both, or n alone", file);
   }
   void wavelengths(const json& root, FittedMaterial& material) const {
     const json& given = at(root, "wavelength_nm", "a list (empty = not stated)");
@@ -124,7 +131,7 @@ std::optional<double> FittedMaterial::wavelength(std::optional<double> asked_nm)
 }
 
 Interface<double> FittedMaterial::surface(std::optional<double> at_nm) const {
-  if (n) return {*n, 0.0};
+  if (n) return {*n, k.value_or(0.0), false};
   if (!material || model.first().id == ModelId::lambert) return perfect_interface<double>();
   const SurfaceMaterial surface(*material);
   if (surface.is_perfect()) return perfect_interface<double>();
@@ -150,6 +157,7 @@ FittedMaterial fitted_material(const FitResult& result) {
                           {},
                           result.material,
                           result.index(),
+                          result.absorption(),
                           result.wavelength_nm,
                           result.assumed_wavelength_nm};
   for (std::size_t i = 0; i < material.values.size(); ++i) {

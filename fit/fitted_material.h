@@ -19,7 +19,7 @@ struct FittedMaterial {
   /// For each parameter its values at wavelength_nm, or nothing where one value serves all; empty where all are shared.
   std::vector<std::vector<double>> by_wavelength;
   std::optional<std::string> material;          ///< full database id; none: F = 1, or n as fitted
-  std::optional<double> n;                      ///< fitted refractive index (k = 0)
+  std::optional<double> n, k;                   ///< fitted; k = 0 where n alone was
   std::vector<double> wavelength_nm;            ///< of the fit, increasing; empty = not stated
   std::optional<double> assumed_wavelength_nm;  ///< where n and k were taken although the wavelength is not stated
 

@@ -21,7 +21,7 @@ std::vector<DoubleLanes> facet_reflectances(const LanePoints& points, const Lobe
 
 void evaluate_lobe(const LanePoints& points, const LobeAt& at, std::span<const DoubleLanes> reflectance, bool slopes,
                    LobeColumns& columns) {
-  const std::size_t count = slopes ? at.varied.size() + (at.n ? 1 : 0) : 0;
+  const std::size_t count = slopes ? at.slopes() : 0;
   columns.value.resize(points.batches());
   columns.slope.resize(count);
   for (auto& column : columns.slope) column.resize(points.batches());

@@ -7,18 +7,21 @@
 
 namespace gonio {
 
-/// A lobe at all points, without ks, and its derivatives by the logarithms of some of its parameters (n last, where it is free).
+/// A lobe at all points, without ks, and its derivatives by the logarithms of some of its parameters (n and k last, where they are free).
 struct LobeColumns {
   std::vector<DoubleLanes> value;
   std::vector<std::vector<DoubleLanes>> slope;
 };
 
-/// What to evaluate: the model's parameters, those of them that vary, and n where it is free (k = 0).
+/// What to evaluate: the model's parameters, those of them that vary, and n and k where they are free (k only with n, else 0).
 struct LobeAt {
   ModelSpec model;
   std::span<const double> values;       ///< in the model's order; kd and ks are not looked at
   std::span<const std::size_t> varied;  ///< places of the parameters that vary, kd and ks not among them
-  std::optional<double> n;
+  std::optional<double> n, k;
+
+  /// Of what varies, n and k included.
+  std::size_t slopes() const { return varied.size() + (n ? 1 : 0) + (k ? 1 : 0); }
 };
 
 /// R of each point for lobes that do not choose it themselves, where n is not free; the same at every step of a fit.

@@ -63,21 +63,21 @@ void lobe_pass(const LanePoints& points, const LobeAt& at, std::span<const Doubl
   using T = typename PassNumber<N>::type;
   std::vector<T> values;
   for (const double x : at.values) values.push_back(T(DoubleLanes(x)));
-  T n = T(DoubleLanes(at.n.value_or(1)));
+  T n = T(DoubleLanes(at.n.value_or(1))), k = T(DoubleLanes(at.k.value_or(0)));
   std::array<DoubleLanes*, N + 1> slope{};
   std::array<double, N + 1> scale{};
   if constexpr (N > 0)
     for (std::size_t i = 0; i < std::size_t(N) && first + i < columns.slope.size(); ++i) {
       slope[i] = columns.slope[first + i].data();
-      const bool index = first + i == at.varied.size();
-      scale[i] = index ? *at.n : at.values[at.varied[first + i]];
-      (index ? n : values[at.varied[first + i]]).v[i] = DoubleLanes(1.0);
+      const std::size_t place = first + i, own = at.varied.size();
+      scale[i] = place < own ? at.values[at.varied[place]] : place == own ? *at.n : *at.k;
+      (place < own ? values[at.varied[place]] : place == own ? n : k).v[i] = DoubleLanes(1.0);
     }
   const Brdf<T> brdf = make_brdf<T>(at.model, values);
   constexpr std::size_t kBlock = 128;  // batches
   for (const LaneGroup& group : points.groups) {
     Interface<T> surface{T(DoubleLanes(group.surface.n)), T(DoubleLanes(group.surface.k)), group.surface.perfect};
-    if (at.n) surface = {n, T(DoubleLanes(0.0)), false};
+    if (at.n) surface = {n, k, false};
     const T wavelength_um(DoubleLanes(group.wavelength_um));
     std::visit(
         [&]<class L>(const L& lobe) {

@@ -160,15 +160,18 @@ void NormalEquations::average(std::size_t lobe, const LobeAt& at) {
 void NormalEquations::evaluate_lobes() {
   const FitProblem& problem = fit_->problem_;
   std::vector<double> values = problem.values;
-  std::optional<double> n;
+  std::optional<double> n, k;
   for (std::size_t i = 0; i < fit_->roughness_.size(); ++i) {
     const std::size_t place = problem.free[fit_->roughness_[i]].place;
-    (place == FreeParameter::kIndex ? n.emplace() : values[place]) = std::exp(roughness[i]);
+    double& to = place == FreeParameter::kIndex        ? n.emplace()
+                 : place == FreeParameter::kAbsorption ? k.emplace()
+                                                       : values[place];
+    to = std::exp(roughness[i]);
   }
   for (std::size_t l = 0; l < columns_.size(); ++l) {
     const LaneFit::Lobe& lobe = fit_->lobes_[l];
     const std::vector<double> own = problem.model.values_of(l, values);
-    const LobeAt at{problem.model.lobes()[l], own, lobe.varied, n};
+    const LobeAt at{problem.model.lobes()[l], own, lobe.varied, n, k};
     if (fit_->nodes_.empty())
       evaluate_lobe(fit_->points_, at, lobe.reflectance[0], varied_ > 0, columns_[l]);
     else

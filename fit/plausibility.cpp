@@ -118,8 +118,9 @@ std::vector<std::string> implausible_index(const FitResult& result, const std::o
   std::vector<std::string> found;
   const std::optional<double> n = result.index();
   if (!n) return found;
+  const std::optional<double> k = result.absorption();
   constexpr double kLow = 1.2, kHigh = 2.6, kOpaque = 0.1, kSame = 1.05;
-  if (!(*n >= kLow && *n <= kHigh))
+  if (!k && !(*n >= kLow && *n <= kHigh))
     found.push_back(fmt::format(
         "fitted n = {:.4g} is no dielectric's ({} to {}): the scan's absolute level, or a metal, may be in it", *n,
         kLow, kHigh));
@@ -129,8 +130,15 @@ std::vector<std::string> implausible_index(const FitResult& result, const std::o
   const SurfaceMaterial named(*material);
   if (named.is_perfect() || !(nm >= named.range_lo_nm() && nm <= named.range_hi_nm())) return found;
   const Interface<double> known = named.at(nm);
-  const FittedParameter& fitted = result.parameters.back();
-  if (known.k > kOpaque)
+  const FittedParameter& fitted = *result.find("n");
+  if (k) {
+    // Neither alone: what they reflect at the normal is what a scan is sure of.
+    const double r0 = Interface<double>{*n, *k, false}.r0();
+    if (std::max(r0 / known.r0(), known.r0() / r0) > kSame)
+      found.push_back(
+          fmt::format("fitted n = {:.4g}, k = {:.4g} reflect {:.3g} at the normal, and {} {:.3g} at {:g} nm", *n, *k,
+                      r0, named.id(), known.r0(), nm));
+  } else if (known.k > kOpaque)
     found.push_back(fmt::format("n = {:.4g} was fitted with k = 0, and {} has n = {:.4g}, k = {:.4g} at {:g} nm", *n,
                                 named.id(), known.n, known.k, nm));
   else if (std::max(*n / known.n, known.n / *n) > kSame && !(known.n >= fitted.lo95 && known.n <= fitted.hi95))

@@ -37,6 +37,7 @@ void resolve_wavelength(const Measurement& scan, FitResult& result) {
 }
 
 void resolve_material(const Measurement& scan, const FitRequest& request, FitResult& result) {
+  if (request.free_k && !request.free_n) throw input_error("k: cannot be freed alone; expected n and k");
   if (request.free_n) {
     if (request.material)
       throw input_error("{}: both a material and a free n are asked for; expected one of them", *request.material);
@@ -145,15 +146,17 @@ void add_spectral(const FreeParameter& shared, const std::vector<double>& wavele
   }
 }
 
+/// n, and k with it where asked for: the boxes hold every dielectric, or every metal too.
 void add_index(const FitRequest& request, std::vector<FreeParameter>& free) {
   if (request.model.first().id == ModelId::lambert)
     throw input_error("n: lambert has no lobe; expected a model with Fresnel reflection");
-  for (const ModelSpec& lobe : request.model.lobes())
-    if (std::any_of(lobe.info().parameters.begin(), lobe.info().parameters.end(),
-                    [](auto& p) { return p.name == "n"; }))
-      throw input_error("n: {} has an exponent of this name; expected a model without one to free the refractive index",
-                        lobe.info().name);
-  free.push_back({FreeParameter::kIndex, "n", "1", 1.01, 3, false});
+  for (const ParameterInfo& p : request.model.parameters())
+    if (p.name == "n" || (request.free_k && p.name == "k"))
+      throw input_error("{0}: {1} has a parameter of this name; expected a model without one to free the surface's {0}",
+                        p.name, request.model.name());
+  const bool metals = request.free_k;
+  free.push_back({FreeParameter::kIndex, "n", "1", metals ? 0.02 : 1.01, metals ? 10.0 : 3.0, false});
+  if (request.free_k) free.push_back({FreeParameter::kAbsorption, "k", "1", 1e-3, 15, false});
 }
 
 std::vector<FreeParameter> free_parameters(const Measurement& scan, const FitRequest& request,

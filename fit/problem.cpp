@@ -59,15 +59,14 @@ double seen(std::span<const Brdf<double>> lobes, const Directions<double>& centr
 }
 
 std::vector<double> FitProblem::predict(std::span<const double> x, std::span<const FitPoint> at) const {
-  const std::optional<double> n = index_at(x);
+  const std::optional<Interface<double>> fitted = surface_at(x);
   std::vector<std::vector<Brdf<double>>> brdfs;
   for (const FitPoint& point : at)
     while (brdfs.size() <= point.group) brdfs.push_back(make_brdfs(model, values_at(x, brdfs.size())));
   std::vector<double> f(at.size());
   for_each_index(at.size(), [&](std::size_t i) {
     const FitPoint& point = at[i];
-    const Interface<double> surface = n ? Interface<double>{*n, 0.0, false} : point.surface;
-    f[i] = seen(brdfs[point.group], point.directions, surface, point.wavelength_um, aperture);
+    f[i] = seen(brdfs[point.group], point.directions, fitted.value_or(point.surface), point.wavelength_um, aperture);
   });
   return f;
 }
@@ -85,15 +84,18 @@ double FitProblem::compared_slope(double f_per_sr, const FitPoint& point) const 
 std::vector<double> FitProblem::values_at(std::span<const double> x, std::size_t group) const {
   std::vector<double> all = values;
   for (std::size_t i = 0; i < free.size(); ++i)
-    if (free[i].place != FreeParameter::kIndex && (free[i].group == FreeParameter::kShared || free[i].group == group))
+    if (!free[i].of_surface() && (free[i].group == FreeParameter::kShared || free[i].group == group))
       all[free[i].place] = std::exp(x[i]);
   return all;
 }
 
-std::optional<double> FitProblem::index_at(std::span<const double> x) const {
+std::optional<Interface<double>> FitProblem::surface_at(std::span<const double> x) const {
+  std::optional<Interface<double>> fitted;
   for (std::size_t i = 0; i < free.size(); ++i)
-    if (free[i].place == FreeParameter::kIndex) return std::exp(x[i]);
-  return std::nullopt;
+    if (free[i].place == FreeParameter::kIndex) fitted = Interface<double>{std::exp(x[i]), 0.0, false};
+  for (std::size_t i = 0; i < free.size(); ++i)
+    if (free[i].place == FreeParameter::kAbsorption && fitted) fitted->k = std::exp(x[i]);
+  return fitted;
 }
 
 }  // namespace gonio

@@ -43,14 +43,17 @@ struct FitPoint {
 
 /// A parameter that the fit varies, on a logarithmic scale inside its box.
 struct FreeParameter {
-  static constexpr std::size_t kIndex = static_cast<std::size_t>(-1);  ///< `place` of the refractive index
-  std::size_t place = 0;                                               ///< in the model's parameters, or kIndex
+  /// `place` of n and of k of the surface, which are none of the model's.
+  static constexpr std::size_t kIndex = static_cast<std::size_t>(-1), kAbsorption = static_cast<std::size_t>(-2);
+  std::size_t place = 0;  ///< in the model's parameters, or one of these
   std::string name, unit;
   double lo = 0, hi = 0;
   bool linear = false;          ///< kd or a ks (a lobe's own factor moves in its logarithm, like a roughness)
   std::size_t group = kShared;  ///< the wavelength (FitPoint::group) whose kd or ks it is
 
   static constexpr std::size_t kShared = static_cast<std::size_t>(-1);
+
+  bool of_surface() const { return place == kIndex || place == kAbsorption; }
 };
 
 /// Another direction that a point's value comes from: source and detector moved off their centres by tangents of small angles, in the
@@ -91,7 +94,7 @@ class FitProblem {
 
   /// All the model's parameters, of one wavelength.
   std::vector<double> values_at(std::span<const double> x, std::size_t group = 0) const;
-  std::optional<double> index_at(std::span<const double> x) const;  ///< n, where it is free
+  std::optional<Interface<double>> surface_at(std::span<const double> x) const;  ///< n (and k, else 0), where free
 };
 
 }  // namespace gonio

@@ -163,7 +163,7 @@ LaneFit::LaneFit(const FitProblem& problem, std::span<const std::size_t> points)
     if (l == 0) by_r0 = make_brdf<double>(spec, own).diffuse_times_r0();
     const bool free_n = lobes_[l].roughness.size() > lobes_[l].varied.size();
     const auto reflectances = [&](const LanePoints& at) {
-      const LobeAt lobe{spec, own, lobes_[l].varied, {}};
+      const LobeAt lobe{spec, own, lobes_[l].varied, {}, {}};
       lobes_[l].reflectance.push_back(free_n ? std::vector<DoubleLanes>() : facet_reflectances(at, lobe));
     };
     if (nodes_.empty()) reflectances(points_);
@@ -183,11 +183,11 @@ void LaneFit::find_places() {
   const auto column = [&](std::size_t place) { return model.is_diffuse(place) ? 0 : 1 + model.place(place).lobe; };
   for (std::size_t i = 0; i < model.parameters().size(); ++i)
     if (model.is_diffuse(i) || model.is_scale(i)) held_[column(i)] = problem_.values[i];
-  std::size_t index = kHeld;
+  std::size_t index = kHeld, absorption = kHeld;
   for (std::size_t i = 0; i < problem_.free.size(); ++i) {
     const FreeParameter& p = problem_.free[i];
-    if (p.place == FreeParameter::kIndex) {
-      index = i;
+    if (p.of_surface()) {
+      (p.place == FreeParameter::kIndex ? index : absorption) = i;
     } else if (!p.linear) {
       const LobeSum::Place own = model.place(p.place);
       lobes_[own.lobe].varied.push_back(own.parameter), lobes_[own.lobe].roughness.push_back(roughness_.size());
@@ -198,9 +198,10 @@ void LaneFit::find_places() {
       linear_[p.group][column(p.place)] = i;
     }
   }
-  if (index != kHeld) {
+  for (const std::size_t i : {index, absorption}) {
+    if (i == kHeld) continue;
     for (Lobe& lobe : lobes_) lobe.roughness.push_back(roughness_.size());
-    roughness_.push_back(index);
+    roughness_.push_back(i);
   }
   if (roughness_.size() + linear_count() + 1 > kMostColumns)
     throw input_error("{}: {} shape parameters to fit at once; expected at most {}", model.name(), roughness_.size(),

@@ -56,7 +56,7 @@ class LaneFit {
  private:
   friend class NormalEquations;
 
-  /// One of the lobes: what varies of it, in its own parameters (without n) and as places in roughness_ (n last), and R of its facets at
+  /// One of the lobes: what varies of it, in its own parameters (without n and k) and as places in roughness_ (n and k last), and R of its facets at
   /// the points, or at each node of the aperture.
   struct Lobe {
     std::vector<std::size_t> varied, roughness;
@@ -67,7 +67,7 @@ class LaneFit {
   LanePoints points_;
   std::vector<LanePoints> nodes_;  ///< of the aperture
   std::vector<Lobe> lobes_;
-  std::vector<std::size_t> roughness_;  ///< places in x of what is not linear, n last
+  std::vector<std::size_t> roughness_;  ///< places in x of what is not linear, n and k last
   /// Places in x of kd and ks of each block; kHeld where not free.
   std::vector<std::array<std::size_t, kMostLinear>> linear_;
   Linear held_{};                ///< kd and ks where they are not free

@@ -60,9 +60,10 @@ class Progress {
 void print_card(const FitResult& result, const Json& json) {
   std::cout << fmt::format("{} of {} ({})\n", described(result.model),
                            result.name.empty() ? result.measurement_id : result.name,
-                           result.material  ? *result.material
-                           : result.index() ? "n fitted"
-                                            : "material not stated: F = 1");
+                           result.material       ? *result.material
+                           : result.absorption() ? "n, k fitted"
+                           : result.index()      ? "n fitted"
+                                                 : "material not stated: F = 1");
   for (const FittedParameter& p : result.parameters) {
     const std::string error =
         p.standard_error ? fmt::format(" +- {:.2g}  (95 %: {:.6g} to {:.6g})", *p.standard_error, p.lo95, p.hi95)

@@ -79,7 +79,10 @@ void add_fit_options(CLI::App& command, FitOptions& options) {
       .add_option("--signature-scale", options.signature_scale,
                   "What the signature is multiplied by: the sample's specular reflectance over that of the signature's")
       ->capture_default_str();
-  command.add_option("--free", options.free, "n: fit the refractive index (k = 0) where no material is known");
+  command
+      .add_option("--free", options.free,
+                  "n: fit the refractive index (k = 0) where no material is known; n,k: both, as of a metal")
+      ->delimiter(',');
   command.add_option(
       "--floor", options.floor,
       "f0 per sr of the log metric (default: smallest stated deviation, else 1e-3 of the smallest value)");
@@ -116,8 +119,9 @@ FitRequest request_for(const FitOptions& options, const std::string& model_name,
   if (!options.material.empty()) request.material = options.material;
   for (const std::string& setting : options.settings) apply_setting(setting, request);
   for (const std::string& parameter : options.free) {
-    if (parameter != "n") throw input_error("--free {}: cannot be freed; expected n", parameter);
-    request.free_n = true;
+    if (parameter != "n" && parameter != "k")
+      throw input_error("--free {}: cannot be freed; expected n, or n,k", parameter);
+    (parameter == "n" ? request.free_n : request.free_k) = true;
   }
   request.spectral = options.spectral;
   if (!options.noise.empty()) {

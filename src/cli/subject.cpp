@@ -24,7 +24,7 @@ bool is_fit_file(const std::string& name) { return name.ends_with(".json"); }
 
 Surface surface_of(const FittedMaterial& fitted) {
   SurfaceArguments arguments;
-  arguments.n = fitted.n;
+  arguments.n = fitted.n, arguments.k = fitted.k;
   if (fitted.material) arguments.material = *fitted.material;
   return Surface(arguments);
 }

@@ -9,7 +9,7 @@ SceneMaterial scene_material(std::string name, const FittedMaterial& fitted,
     const std::vector<double> values = fitted.values_at(fitted.wavelength(nm));
     if (fitted.is_spectral()) material.by_wavelength.push_back(values);
   }
-  if (fitted.n) material.fixed_interface = Interface<double>{*fitted.n, 0, false};
+  if (fitted.n) material.fixed_interface = Interface<double>{*fitted.n, fitted.k.value_or(0), false};
   return material;
 }
 

@@ -326,3 +326,22 @@ TEST_CASE("where no deviation is stated, repeats give it", "[fit][likelihood]") 
   CHECK(result.value("m") == Approx(0.2).epsilon(0.01));
   CHECK_THROWS_AS(fit(empty_scan(), request), InputError);  // equal values say nothing of their error
 }
+
+TEST_CASE("n and k of a metal come back where ks is known", "[fit][surface]") {
+  const Interface<double> copper = SurfaceMaterial("Cu").at(550);
+  const std::vector<double> truth{0.25, 0.02, 1};
+  Measurement scan = empty_scan(2);
+  const Measurement seen = synthetic(scan, spec_of("torrance-sparrow"), truth, copper);
+  FitRequest request = request_for(spec_of("torrance-sparrow"));
+  request.material.reset(), request.free_n = request.free_k = true, request.held = {{"ks", 1.0}};
+  const FitResult result = fit(seen, request);
+  INFO(result.index().value_or(0) << " + i " << result.absorption().value_or(0));
+  CHECK(*result.index() == Approx(copper.n).epsilon(1e-4));
+  CHECK(*result.absorption() == Approx(copper.k).epsilon(1e-4));
+  const FittedMaterial back = parse_fit(to_json(result).dump(), "fit.json");
+  CHECK(back.surface(550).k == *result.absorption());
+  request.free_n = false;
+  CHECK_THROWS_AS(fit(seen, request), InputError);
+  request.free_n = true, request.model = lobe_sum("sgd-2012"), request.held.clear();  // has a k of its own
+  CHECK_THROWS_AS(fit(seen, request), InputError);
+}
