@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/arguments.h"
@@ -42,12 +43,6 @@ struct Task {
   std::string status, reason;  ///< fitted, kept, not converged, failed (with its reason)
   Json fit;                    ///< of fit.json; null where it failed
 };
-
-/// FNV-1a, 64 bits (Fowler, Noll & Vo 1991): tells changed inputs from the same ones, no guard against malice.
-std::uint64_t digest_of(std::string_view bytes, std::uint64_t seed = 14695981039346656037ULL) {
-  for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  return seed;
-}
 
 bool is_measurement(const fs::path& path) {
   return fs::is_regular_file(path) || fs::exists(path / "scan.csv") || fs::exists(path / "measurement.yaml");

@@ -33,6 +33,7 @@ void add_export(CLI::App& app, Common& common);
 void add_batch(CLI::App& app, Common& common);
 void add_table(CLI::App& app, Common& common);
 void add_table_scatter(CLI::App& table, Common& common);
+void add_table_nodes(CLI::App& table, Common& common);
 void add_render(CLI::App& app, Common& common);
 void add_assess(CLI::App& app, Common& common);
 void add_measurements(CLI::App& app, Common& common);

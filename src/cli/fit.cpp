@@ -193,9 +193,11 @@ void add_fit(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("fit", "Fit reflection models to a goniophotometric scan");
   command->footer(
       "Example: gonio fit measurements/aluminium-merl --model torrance-sparrow --out out\n"
+      "         gonio fit measurements/retro-tape-yellow --model ggx+phong-1975 --set retro_2=yes --out out   (a sum of lobes)\n"
       "Writes OUT/fit.json and plots of measured against fitted values (several models: a folder each, and "
       "fits.json).\n"
-      "Metrics: log compares ln(f + f0), linear f*cos_o, cuberoot (f*cos_o)^(1/3). Exit 1: a fit did not converge.");
+      "Metrics: log compares ln(f + f0), linear f*cos_o, cuberoot (f*cos_o)^(1/3),\n"
+      "likelihood (f - y)/s. Exit 1: a fit did not converge.");
   add_common(*command, common);
   auto a = std::make_shared<FitArguments>();
   command
@@ -205,7 +207,7 @@ void add_fit(CLI::App& app, Common& common) {
   command
       ->add_option(
           "--model", a->models,
-          "One or more models, see `gonio models`; auto: the simplest that these data cannot tell from the best")
+          "One or more models, see `gonio models`, or sums of up to three, a+b; auto: the simplest that these data cannot tell from the best")
       ->required();
   add_fit_options(*command, a->options);
   command

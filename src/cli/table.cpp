@@ -155,6 +155,7 @@ void add_table(CLI::App& app, Common& common) {
   limits->add_option("--angles", asked->angles, "Angles in degrees, 0 to 89.99, whose E is shown");
   limits->callback([&common, asked] { run_limits(*asked, common); });
   add_table_scatter(*command, common);
+  add_table_nodes(*command, common);
   command->callback([command, arguments] {
     if (command->get_subcommands().empty()) run_table(*arguments);
   });

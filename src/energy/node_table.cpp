@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "brdf/lanes.h"
@@ -16,12 +17,17 @@ constexpr double kBend =
     0.1;  // columns lie evenly in asinh(rise/(kBend·m/(1 + m))): close where slopes and rise compare
 constexpr std::size_t kTaps = 4;
 
-/// cos θ as columns count it, 0 at grazing to 1 at the normal.
-double bend_of(double width) { return kBend * width / (1 + width); }
-/// 1 - √(1 - cos θ): like the elevation, linear in θ at the normal.
-double column_share(double cos_i, double width) {
-  const double bend = bend_of(width);
-  return std::asinh(cos_i / (1 + std::sqrt(1 - cos_i)) / bend) / std::asinh(1 / bend);
+template <class T>
+T bend_of(const T& width) {
+  return T(kBend) * width / (T(1.0) + width);
+}
+/// Where cos θ lies among the columns, 0 at grazing to 1 at the normal, by 1 - √(1 - cos θ): like the elevation linear in θ at the normal.
+template <class T>
+T column_share(const T& cos_i, const T& width) {
+  using std::asinh;
+  using std::sqrt;
+  const T bend = bend_of(width);
+  return T(asinh(T(cos_i / (T(1.0) + sqrt(T(T(1.0) - cos_i))) / bend))) / T(asinh(T(T(1.0) / bend)));
 }
 double cosine_at(double share, double width) {
   const double bend = bend_of(width), rise = bend * std::sinh(share * std::asinh(1 / bend));
@@ -33,19 +39,14 @@ struct Taps {
   std::size_t first;
   std::array<float, kTaps> weight;
 };
-Taps taps_at(double x, std::size_t count) {
-  const auto first = static_cast<std::size_t>(std::clamp(std::floor(x) - 1, 0.0, static_cast<double>(count - kTaps)));
-  const double t = x - static_cast<double>(first);
-  return {first,
-          {float(-(t - 1) * (t - 2) * (t - 3) / 6), float(t * (t - 2) * (t - 3) / 2), float(-t * (t - 1) * (t - 3) / 2),
-           float(t * (t - 1) * (t - 2) / 6)}};
+Taps taps_at(float x, std::size_t count) {
+  const auto first =
+      static_cast<std::size_t>(std::clamp(std::floor(x) - 1.0F, 0.0F, static_cast<float>(count - kTaps)));
+  const float t = x - static_cast<float>(first), a = t - 1, b = t - 2, c = t - 3;
+  return {first, {-a * b * c / 6, t * b * c / 2, -t * a * c / 2, t * a * b / 6}};
 }
 
 }  // namespace
-
-struct NodeTable::Place {
-  Taps row, column;
-};
 
 Lobe<double> lobe_of_width(const ModelSpec& spec, double width) {
   std::vector<double> values;
@@ -56,77 +57,101 @@ Lobe<double> lobe_of_width(const ModelSpec& spec, double width) {
 NodeTable::NodeTable(const ModelSpec& spec) : NodeTable(spec, Grid()) {}
 
 NodeTable::NodeTable(const ModelSpec& spec, const Grid& grid)
-    : spec_(spec),
-      grid_(grid),
-      widest_(std::min(kWidest, spec.info().parameters.front().hi)),
-      cells_(grid.rows * grid.columns) {
-  if (grid.rows < kTaps || grid.columns < kTaps)
-    throw input_error("grid {} x {}: too small; expected {} or more each way", grid.rows, grid.columns, kTaps);
-  if (spec.info().parameters.front().name != "m")
-    throw input_error("{}: has no table of nodes; expected a lobe of Gaussian slopes (m)", spec.info().name);
+    : NodeTable(spec, grid, std::vector<Numbers>(grid.rows * grid.columns)) {
   lobe_measure(lobe_of_width(spec, widest_), 45);  // refuses a lobe that has no nodes
   tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t at) {
-    const double row = static_cast<double>(at / grid.columns) / static_cast<double>(grid.rows - 1);
-    const double width = kNarrowest * std::pow(widest_ / kNarrowest, row);
-    const double share = static_cast<double>(at % grid.columns) / static_cast<double>(grid.columns - 1);
-    const double theta_deg = std::acos(cosine_at(share, width)) * 180 / kPi<double>;
-    const CosNodes nodes = gauss_nodes(lobe_measure(lobe_of_width(spec, width), theta_deg));
+    const CosNodes nodes = gauss_nodes(lobe_measure(lobe_of_width(spec, width(at)), theta_deg(at)));
     for (std::size_t i = 0; i < CosNodes::kCount; ++i) {
-      cells_[at][i] = static_cast<float>(nodes.cos_d[i]);
-      cells_[at][CosNodes::kCount + i] = static_cast<float>(nodes.weight[i]);
+      cells_[at].number[i] = static_cast<float>(nodes.cos_d[i]);
+      cells_[at].number[CosNodes::kCount + i] = static_cast<float>(nodes.weight[i]);
     }
   });
 }
 
-NodeTable::Place NodeTable::place(double cos_i, double width) const {
-  const double w = std::clamp(width, kNarrowest, widest_);
-  const double row = std::log(w / kNarrowest) / std::log(widest_ / kNarrowest) * static_cast<double>(grid_.rows - 1);
-  const double column = column_share(std::clamp(cos_i, 0.0, 1.0), w) * static_cast<double>(grid_.columns - 1);
-  return {taps_at(row, grid_.rows), taps_at(column, grid_.columns)};
+NodeTable::NodeTable(const ModelSpec& spec, const Grid& grid, std::vector<Numbers> cells)
+    : spec_(spec),
+      grid_(grid),
+      widest_(std::min(kWidest, spec.info().parameters.front().hi)),
+      cells_(std::move(cells)) {
+  if (grid.rows < kTaps || grid.columns < kTaps)
+    throw input_error("grid {} x {}: too small; expected {} or more each way", grid.rows, grid.columns, kTaps);
+  if (spec.info().parameters.front().name != "m")
+    throw input_error("{}: has no table of nodes; expected a lobe of Gaussian slopes (m)", spec.info().name);
 }
 
-std::array<float, NodeTable::kNumbers> NodeTable::interpolated(const Place& at) const {
-  std::array<float, kNumbers> sum{};
-  for (std::size_t r = 0; r < kTaps; ++r)
+double NodeTable::width(std::size_t cell) const {
+  const double row = static_cast<double>(cell / grid_.columns) / static_cast<double>(grid_.rows - 1);
+  return kNarrowest * std::pow(widest_ / kNarrowest, row);
+}
+
+double NodeTable::theta_deg(std::size_t cell) const {
+  const double share = static_cast<double>(cell % grid_.columns) / static_cast<double>(grid_.columns - 1);
+  return std::acos(cosine_at(share, width(cell))) * 180 / kPi<double>;
+}
+
+template <class T>
+std::pair<T, T> NodeTable::coordinates(const T& cos_i, const T& width) const {
+  using std::log;
+  const T w = smaller_of(larger_of(width, T(kNarrowest)), T(widest_));
+  const T cosine = smaller_of(larger_of(cos_i, T(0.0)), T(1.0));
+  const double per_log = static_cast<double>(grid_.rows - 1) / std::log(widest_ / kNarrowest);
+  return {T(log(T(w * T(1 / kNarrowest)))) * T(per_log),
+          column_share(cosine, w) * T(static_cast<double>(grid_.columns - 1))};
+}
+
+NodeTable::Numbers NodeTable::interpolated(float row, float column) const {
+  const Taps rows = taps_at(row, grid_.rows), columns = taps_at(column, grid_.columns);
+  constexpr std::size_t kBatches = kNumbers / FloatLanes::size;
+  std::array<FloatLanes, kBatches> sum;
+  sum.fill(FloatLanes(0.0F));
+  for (std::size_t r = 0; r < kTaps; ++r) {
+    const Numbers* cells = &cells_[(rows.first + r) * grid_.columns + columns.first];
     for (std::size_t c = 0; c < kTaps; ++c) {
-      const Cell& cell = cells_[(at.row.first + r) * grid_.columns + at.column.first + c];
-      const float weight = at.row.weight[r] * at.column.weight[c];
-      for (std::size_t i = 0; i < kNumbers; ++i) sum[i] += weight * cell[i];
+      const FloatLanes weight(rows.weight[r] * columns.weight[c]);
+      for (std::size_t b = 0; b < kBatches; ++b)
+        sum[b] = multiply_add(weight, FloatLanes::load_aligned(&cells[c].number[b * FloatLanes::size]), sum[b]);
     }
-  return sum;
+  }
+  Numbers numbers;
+  for (std::size_t b = 0; b < kBatches; ++b) sum[b].store_aligned(&numbers.number[b * FloatLanes::size]);
+  return numbers;
 }
 
 CosNodes NodeTable::nodes(double cos_i, double width) const {
-  const auto numbers = interpolated(place(cos_i, width));
+  const auto [row, column] = coordinates(cos_i, width);
+  const Numbers numbers = interpolated(static_cast<float>(row), static_cast<float>(column));
   CosNodes nodes;
   for (std::size_t i = 0; i < CosNodes::kCount; ++i)
-    nodes.cos_d[i] = std::clamp(double(numbers[i]), 0.0, 1.0), nodes.weight[i] = numbers[CosNodes::kCount + i];
+    nodes.cos_d[i] = std::clamp(double(numbers.number[i]), 0.0, 1.0),
+    nodes.weight[i] = numbers.number[CosNodes::kCount + i];
   return nodes;
 }
 
 void NodeTable::reflectances(std::span<const double> cos_i, std::span<const double> width,
                              const Interface<double>& surface, std::span<double> e) const {
-  constexpr std::size_t kPairs = FloatLanes::size / CosNodes::kCount;  // in one batch of lanes
-  static_assert(kPairs >= 1);
+  constexpr std::size_t kLanes = FloatLanes::size, kPairs = kLanes / CosNodes::kCount;  // pairs of one batch of nodes
+  static_assert(kPairs >= 1 && kNumbers % kLanes == 0);
   const Interface<FloatLanes> lanes = spread<FloatLanes>(surface);
-  alignas(64) std::array<float, FloatLanes::size> cos_d{}, weight{};
-  for (std::size_t from = 0; from < e.size(); from += kPairs) {
-    const std::size_t count = std::min(kPairs, e.size() - from);
-    for (std::size_t p = 0; p < count; ++p) {
-      const auto numbers = interpolated(place(cos_i[from + p], width[from + p]));
-      std::copy_n(numbers.begin(), CosNodes::kCount, cos_d.begin() + std::ptrdiff_t(p * CosNodes::kCount));
-      std::copy_n(numbers.begin() + CosNodes::kCount, CosNodes::kCount,
-                  weight.begin() + std::ptrdiff_t(p * CosNodes::kCount));
-    }
-    const FloatLanes u =
-        smaller_of(larger_of(FloatLanes::load_aligned(cos_d.data()), FloatLanes(0.0F)), FloatLanes(1.0F));
-    const FloatLanes share = FloatLanes::load_aligned(weight.data()) * lanes.reflectance(u);
-    alignas(64) std::array<float, FloatLanes::size> parts;
-    share.store_aligned(parts.data());
-    for (std::size_t p = 0; p < count; ++p) {
-      float sum = 0;
-      for (std::size_t i = 0; i < CosNodes::kCount; ++i) sum += parts[p * CosNodes::kCount + i];
-      e[from + p] = sum;
+  alignas(64) std::array<float, kLanes> c{}, w{}, row, column, cos_d{}, weight{}, parts;
+  for (std::size_t from = 0; from < e.size(); from += kLanes) {
+    const std::size_t count = std::min(kLanes, e.size() - from);
+    for (std::size_t p = 0; p < count; ++p)
+      c[p] = static_cast<float>(cos_i[from + p]), w[p] = static_cast<float>(width[from + p]);
+    const auto [rows, columns] = coordinates(FloatLanes::load_aligned(c.data()), FloatLanes::load_aligned(w.data()));
+    rows.store_aligned(row.data()), columns.store_aligned(column.data());
+    for (std::size_t first = 0; first < count; first += kPairs) {
+      const std::size_t pairs = std::min(kPairs, count - first);
+      for (std::size_t p = 0; p < pairs; ++p) {
+        const Numbers numbers = interpolated(row[first + p], column[first + p]);
+        std::copy_n(&numbers.number[0], CosNodes::kCount, &cos_d[p * CosNodes::kCount]);
+        std::copy_n(&numbers.number[CosNodes::kCount], CosNodes::kCount, &weight[p * CosNodes::kCount]);
+      }
+      const FloatLanes u =
+          smaller_of(larger_of(FloatLanes::load_aligned(cos_d.data()), FloatLanes(0.0F)), FloatLanes(1.0F));
+      (FloatLanes::load_aligned(weight.data()) * lanes.reflectance(u)).store_aligned(parts.data());
+      for (std::size_t p = 0; p < pairs; ++p)
+        e[from + first + p] =
+            std::accumulate(&parts[p * CosNodes::kCount], &parts[p * CosNodes::kCount] + CosNodes::kCount, 0.0F);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
+#include <array>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "brdf/models.h"
@@ -38,20 +39,32 @@ class NodeTable {
   const ModelSpec& spec() const { return spec_; }
   const Grid& grid() const { return grid_; }
   double widest() const { return widest_; }
-  std::size_t bytes() const { return cells_.size() * sizeof(Cell); }
+
+  static constexpr std::size_t kNumbers = 2 * CosNodes::kCount;
+  /// cos_d of each node, then the weights.
+  struct alignas(64) Numbers {
+    std::array<float, kNumbers> number;
+  };
+  /// The places of the grid, row by row.
+  std::size_t cells() const { return cells_.size(); }
+  const std::array<float, kNumbers>& numbers(std::size_t cell) const { return cells_[cell].number; }
+  double width(std::size_t cell) const;
+  double theta_deg(std::size_t cell) const;
+  std::size_t bytes() const { return cells_.size() * sizeof(Numbers); }
+
+  /// Of a file's numbers (energy/node_file.h).
+  NodeTable(const ModelSpec& spec, const Grid& grid, std::vector<Numbers> cells);
 
  private:
-  static constexpr std::size_t kNumbers = 2 * CosNodes::kCount;
-  using Cell = std::array<float, kNumbers>;  ///< cos_d of each node, then the weights
-
-  struct Place;
-  Place place(double cos_i, double width) const;
-  std::array<float, kNumbers> interpolated(const Place& at) const;
+  /// Where a pair lies in rows and columns.
+  template <class T>
+  std::pair<T, T> coordinates(const T& cos_i, const T& width) const;
+  Numbers interpolated(float row, float column) const;
 
   ModelSpec spec_;
   Grid grid_;
   double widest_;
-  std::vector<Cell> cells_;  ///< row by row
+  std::vector<Numbers> cells_;
 };
 
 /// The lobe of a model whose widths are all the same; the other parameters at their defaults, kd = 0, ks = 1.
