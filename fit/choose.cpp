@@ -137,22 +137,15 @@ std::string sentence_of(const ModelChoice& choice) {
     return fmt::format(
         "{} predicts left-out scans best (rms_log10 {:.3g}), and every cheaper model is worse by more than one "
         "standard error: the data need its {} parameters",
-        described(chosen.result.model), chosen.held_out_log10, chosen.parameters);
+        chosen.result.model.described(), chosen.held_out_log10, chosen.parameters);
   return fmt::format(
       "{} ({} parameters, held-out rms_log10 {:.3g}) is the simplest that these data cannot tell from the best, {} ({} "
       "parameters, {:.3g}): no more model than the data need",
-      described(chosen.result.model), chosen.parameters, chosen.held_out_log10, described(best.result.model),
+      chosen.result.model.described(), chosen.parameters, chosen.held_out_log10, best.result.model.described(),
       best.parameters, best.held_out_log10);
 }
 
 }  // namespace
-
-std::string described(const LobeSum& model) {
-  std::string names;
-  for (const ModelSpec& lobe : model.lobes())
-    names += fmt::format("{}{}{}", names.empty() ? "" : " + ", lobe.info().name, lobe.retro ? " (turned back)" : "");
-  return names;
-}
 
 Excess excess_over(const ModelChoice& choice, const Candidate& worse, const Candidate& better) {
   std::vector<double> excess = worse.scan_error;
@@ -286,7 +279,7 @@ std::vector<Start> pairs(const ModelChoice& choice) {
 /// The lobes of a sum, in any order.
 std::multiset<std::string> lobes_of(const LobeSum& model) {
   std::multiset<std::string> names;
-  for (const ModelSpec& lobe : model.lobes()) names.insert(described(lobe));
+  for (const ModelSpec& lobe : model.lobes()) names.insert(LobeSum(lobe).described());
   return names;
 }
 

@@ -31,9 +31,6 @@ struct ModelChoice {
   std::string sentence;
 };
 
-/// "ggx + phong-1975 (turned back)".
-std::string described(const LobeSum& model);
-
 /// Mean squared log10 error of left-out scans by which one candidate exceeds another, and its standard error between scans.
 struct Excess {
   double mean, error;

@@ -310,6 +310,10 @@ std::optional<double> FitResult::of_surface(std::string_view name) const {
   return found ? std::optional(found->value) : std::nullopt;
 }
 
+double FitResult::evaluated_at_nm(double stated_nm) const {
+  return std::isnan(stated_nm) ? assumed_wavelength_nm.value_or(1000) : stated_nm;
+}
+
 FitResult fit(const Measurement& measurement, const FitRequest& request) {
   if (request.starts < (request.begin.empty() ? 1 : 0))
     throw input_error("starts {}: too few; expected 1 or more", request.starts);
@@ -355,31 +359,26 @@ std::vector<double> predict(const FitResult& result, double theta_i_deg, std::sp
   const FittedMaterial material = fitted_material(result);
   const std::optional<double> nm =
       result.wavelength_nm.empty() ? material.wavelength({}) : result.wavelength_nm.front();
-  const std::vector<Brdf<double>> lobes = material.brdfs(nm);
-  const Interface<double> surface = material.surface(nm);
+  const LobesOnSurface at = material.at(nm);
   const std::vector<ApertureNode> aperture = aperture_nodes(result.aperture);
   std::vector<double> f;
   for (const double theta : theta_o_deg)
     f.push_back(
-        seen(lobes, directions_from_deg(theta_i_deg, theta, phi_deg), surface, nm.value_or(1000) * 1e-3, aperture));
+        seen(at.lobes, directions_from_deg(theta_i_deg, theta, phi_deg), at.surface, at.wavelength_um, aperture));
   return f;
 }
 
 std::vector<double> predict(const FitResult& result, std::span<const ScanPoint> points) {
   const FittedMaterial material = fitted_material(result);
   const std::vector<ApertureNode> aperture = aperture_nodes(result.aperture);
-  struct AtWavelength {
-    std::vector<Brdf<double>> lobes;
-    Interface<double> surface;
-  };
-  std::map<double, AtWavelength> known;
+  std::map<double, LobesOnSurface> known;
   std::vector<double> f;
   for (const ScanPoint& p : points) {
-    const double nm = p.has_wavelength() ? p.wavelength_nm : result.assumed_wavelength_nm.value_or(1000);
-    if (!known.contains(nm)) known.emplace(nm, AtWavelength{material.brdfs(nm), material.surface(nm)});
-    const AtWavelength& at = known.at(nm);
+    const double nm = result.evaluated_at_nm(p.wavelength_nm);
+    if (!known.contains(nm)) known.emplace(nm, material.at(nm));
+    const LobesOnSurface& at = known.at(nm);
     const Directions<double> w = directions_from_deg(p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.phi_i_deg);
-    f.push_back(seen(at.lobes, w, at.surface, nm * 1e-3, aperture));
+    f.push_back(seen(at.lobes, w, at.surface, at.wavelength_um, aperture));
   }
   return f;
 }

@@ -121,6 +121,8 @@ struct FitResult {
   std::optional<double> index() const { return of_surface("n"); }       ///< where it was fitted
   std::optional<double> absorption() const { return of_surface("k"); }  ///< likewise
   std::optional<double> of_surface(std::string_view name) const;
+  /// Where a row was evaluated: at its wavelength, else the assumed one (1000 nm where none matters).
+  double evaluated_at_nm(double stated_nm) const;
 };
 
 /// Fits a model to a scan. InputError for what cannot be fitted (no wavelength where one is needed, an unknown

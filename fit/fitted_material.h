@@ -12,6 +12,15 @@ namespace gonio {
 
 struct FitResult;
 
+/// Lobes that add up, on their surface at one wavelength: what an evaluation takes.
+struct LobesOnSurface {
+  std::vector<Brdf<double>> lobes;
+  Interface<double> surface;
+  double wavelength_um;  ///< 1 where none matters
+
+  double f_per_sr(const Directions<double>& w) const { return evaluate<double>(lobes, w, surface, wavelength_um); }
+};
+
 /// What a fit leaves behind for those who use the material: model, values, and where its n and k come from.
 struct FittedMaterial {
   LobeSum model;
@@ -39,6 +48,10 @@ struct FittedMaterial {
 
   /// n and k there (InputError outside the material's range).
   Interface<double> surface(std::optional<double> wavelength_nm) const;
+
+  LobesOnSurface at(std::optional<double> wavelength_nm) const {
+    return {brdfs(wavelength_nm), surface(wavelength_nm), wavelength_nm.value_or(1000) * 1e-3};
+  }
 };
 
 FittedMaterial fitted_material(const FitResult& result);

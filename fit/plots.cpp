@@ -62,7 +62,7 @@ std::string angle_name(const FitResult& result, std::size_t incidence) {
 
 std::string heading(const FitResult& result) {
   const std::string sample = gnuplot_text(result.name.empty() ? result.measurement_id : result.name);
-  return fmt::format("set title '{}: {}' noenhanced\n", sample, result.model.name());
+  return fmt::format("set title '{}: {}' noenhanced\n", sample, result.model.described());
 }
 
 std::string unit_of(const FitResult& result) {

@@ -12,21 +12,13 @@
 namespace gonio {
 namespace {
 
-struct AtWavelength {
-  std::vector<Brdf<double>> lobes;
-  Interface<double> surface;
-};
-
 /// The Mueller matrix of lobes that add up, normalised by its first element.
-Mueller<double> normalised(const AtWavelength& at, const ScanPoint& p, double wavelength_um) {
+Mueller<double> normalised(const LobesOnSurface& at, const ScanPoint& p) {
   const Directions<double> w = directions_from_deg(p.theta_i_deg, p.theta_o_deg, p.phi_deg(), p.phi_i_deg);
   const Azimuth<double> azimuth = azimuth_from_deg(p.phi_deg());
-  Mueller<double> sum = evaluate_mueller(at.lobes[0], w, azimuth, at.surface, wavelength_um);
-  for (std::size_t l = 1; l < at.lobes.size(); ++l) {
-    const Mueller<double> one = evaluate_mueller(at.lobes[l], w, azimuth, at.surface, wavelength_um);
-    for (int r = 0; r < 4; ++r)
-      for (int c = 0; c < 4; ++c) sum.m[r][c] += one.m[r][c];
-  }
+  Mueller<double> sum = evaluate_mueller(at.lobes[0], w, azimuth, at.surface, at.wavelength_um);
+  for (std::size_t l = 1; l < at.lobes.size(); ++l)
+    sum += evaluate_mueller(at.lobes[l], w, azimuth, at.surface, at.wavelength_um);
   const double all = sum.m[0][0];
   for (auto& row : sum.m)
     for (double& element : row) element = all > 0 ? element / all : 0;
@@ -41,19 +33,19 @@ MuellerJudgement judge_polarisation(const Measurement& scan, const FitResult& re
   MuellerJudgement judgement;
   if (scan.mueller_names.empty()) return judgement;
   const FittedMaterial material = fitted_material(result);
-  std::map<double, AtWavelength> known;
+  std::map<double, LobesOnSurface> known;
   std::vector<double> measured(scan.mueller_names.size(), 0.0), residual = measured;
   std::vector<int> points(scan.mueller_names.size(), 0);
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const ScanPoint& p = scan.points[i];
     if (!result.points[i].used && !result.points[i].held_out) continue;
-    const double nm = p.has_wavelength() ? p.wavelength_nm : result.assumed_wavelength_nm.value_or(1000);
-    if (!known.contains(nm)) known.emplace(nm, AtWavelength{material.brdfs(nm), material.surface(nm)});
-    const AtWavelength& at = known.at(nm);
+    const double nm = result.evaluated_at_nm(p.wavelength_nm);
+    if (!known.contains(nm)) known.emplace(nm, material.at(nm));
+    const LobesOnSurface& at = known.at(nm);
     judgement.stated = std::all_of(at.lobes.begin(), at.lobes.end(),
                                    [](const Brdf<double>& lobe) { return lobe.ks == 0 || states_polarisation(lobe); });
     if (!judgement.stated) return judgement;
-    const Mueller<double> fitted = normalised(at, p, nm * 1e-3);
+    const Mueller<double> fitted = normalised(at, p);
     for (std::size_t e = 0; e < p.mueller.size(); ++e) {
       if (std::isnan(p.mueller[e])) continue;
       const std::string& name = scan.mueller_names[e];

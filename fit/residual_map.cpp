@@ -103,7 +103,7 @@ std::string panel_title(const FitResult& result, std::size_t incidence) {
 std::string page_title(const FitResult& result, bool cuts) {
   const bool first = !cuts && result.wavelength_nm.size() > 1;
   return fmt::format("{}: {}{}, residuals", gnuplot_text(result.name.empty() ? result.measurement_id : result.name),
-                     gnuplot_text(result.model.name()),
+                     gnuplot_text(result.model.described()),
                      first ? fmt::format(" at {:g} nm", result.wavelength_nm.front()) : "");
 }
 

@@ -23,6 +23,7 @@ namespace gonio {
 namespace {
 
 namespace fs = std::filesystem;
+using Progress = PublishedPage::Progress;
 
 struct Number {
   double value, unit;  ///< unit of the last digit printed
@@ -105,21 +106,27 @@ const std::vector<PublishedPage>& published_pages() {
   static const std::vector<PublishedPage> pages{
       {"brdf-stability",
        "where reflection models fail: published forms beside ours, energy above 1, validity of Kirchhoff's theory",
-       [](const fs::path&, const fs::path& folder) { write_brdf_stability(folder, true); }},
+       [](const fs::path&, const fs::path& folder, const Progress&) { write_brdf_stability(folder, true); }},
       {"interpolation", "what each interpolation variant loses on the database; the default of each class of data",
-       [](const fs::path&, const fs::path& folder) { write_interpolation_errors(folder); }},
+       [](const fs::path&, const fs::path& folder, const Progress&) { write_interpolation_errors(folder); }},
       {"kramers-kronig", "n and k from reflectance on cut bands, against metals whose n and k are known",
-       [](const fs::path&, const fs::path& folder) { write_kramers_kronig_charts(folder); }},
+       [](const fs::path&, const fs::path& folder, const Progress&) { write_kramers_kronig_charts(folder); }},
       {"published-comparisons", "experiments in print: what each paper says of the models, as numbers that hold or not",
-       [](const fs::path&, const fs::path& folder) { write_published_comparisons(folder); }},
+       [](const fs::path&, const fs::path& folder, const Progress&) { write_published_comparisons(folder); }},
       {"merl-tables", "the published fits of the MERL materials (Ngan, Low, Bagher) evaluated side by side",
-       [](const fs::path&, const fs::path& folder) { write_merl_tables(folder); }},
+       [](const fs::path&, const fs::path& folder, const Progress&) { write_merl_tables(folder); }},
       {"wavelengths", "how few wavelengths a scene needs, against rules that do not know it; every lamp",
-       [](const fs::path& published, const fs::path& folder) { write_wavelength_errors(published, folder); }},
+       [](const fs::path& published, const fs::path& folder, const Progress&) {
+         write_wavelength_errors(published, folder);
+       }},
       {"fit-stability", "what is recovered, which starts end where, scans that mislead (42 s)",
-       [](const fs::path&, const fs::path& folder) { write_fit_stability(folder, [](const std::string&) {}, true); }, false},
+       [](const fs::path&, const fs::path& folder, const Progress& progress) {
+         write_fit_stability(folder, progress, true);
+       },
+       false},
       {"model-choice", "the model that auto takes for every bundled measurement, beside one Ward lobe (2 min)",
-       [](const fs::path&, const fs::path& folder) { write_model_choice(folder, [](const std::string&) {}); }, false},
+       [](const fs::path&, const fs::path& folder, const Progress& progress) { write_model_choice(folder, progress); },
+       false},
   };
   return pages;
 }

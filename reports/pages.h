@@ -1,6 +1,7 @@
 #pragma once
 // The published pages of this folder, each remade by code, and what a remade one differs by.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,9 @@ struct PublishedPage {
   std::string_view name, about;
   /// Makes the page in `folder`. `published` is where the published one lies: a page may keep the results of a long
   /// search there and compute everything else from them again.
-  void (*remake)(const std::filesystem::path& published, const std::filesystem::path& folder);
+  /// `progress` hears of each part of a page that takes minutes.
+  using Progress = std::function<void(const std::string&)>;
+  void (*remake)(const std::filesystem::path& published, const std::filesystem::path& folder, const Progress& progress);
   bool repeatable = true;  ///< the same numbers on every machine
 };
 const std::vector<PublishedPage>& published_pages();

@@ -60,8 +60,8 @@ std::string table_of(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     const Excess excess = row.ward_over_chosen();
     text += fmt::format("| {} | {} | {} | {:.3g} | {} ({:.3g}) | {:.3g} | {:.2g} ± {:.1g} |\n", row.id,
-                        described(row.chosen().result.model), row.chosen().parameters, row.chosen().held_out_log10,
-                        described(row.best_single().result.model), row.best_single().held_out_log10,
+                        row.chosen().result.model.described(), row.chosen().parameters, row.chosen().held_out_log10,
+                        row.best_single().result.model.described(), row.best_single().held_out_log10,
                         row.ward().held_out_log10, excess.mean, excess.error);
   }
   return text;
@@ -71,7 +71,7 @@ std::string choices_csv(const std::vector<Row>& rows) {
   std::string csv = "measurement,model,parameters,rms_log10,held_out_rms_log10,worse_than_best,standard_error,chosen\n";
   for (const Row& row : rows)
     for (const Candidate& c : row.choice.candidates)
-      csv += fmt::format("{},{},{},{:.4g},{:.4g},{:.3g},{:.3g},{}\n", row.id, described(c.result.model), c.parameters,
+      csv += fmt::format("{},{},{},{:.4g},{:.4g},{:.3g},{:.3g},{}\n", row.id, c.result.model.described(), c.parameters,
                          c.result.all.rms_log10, c.held_out_log10, c.worse, c.uncertain,
                          &c == &row.chosen() ? "yes" : "no");
   return csv;

@@ -52,6 +52,13 @@ std::string LobeSum::name() const {
   return names;
 }
 
+std::string LobeSum::described() const {
+  std::string names;
+  for (const ModelSpec& lobe : lobes_)
+    names += fmt::format("{}{}{}", names.empty() ? "" : " + ", lobe.info().name, lobe.retro ? " (turned back)" : "");
+  return names;
+}
+
 std::string LobeSum::variant() const {
   std::string names;
   for (const ModelSpec& lobe : lobes_) names += fmt::format("{}{}", names.empty() ? "" : "+", lobe.variant());

@@ -25,7 +25,8 @@ class LobeSum {
   const ModelSpec& first() const { return lobes_.front(); }
   bool is_sum() const { return lobes_.size() > 1; }
 
-  std::string name() const;     ///< "ggx+phong-1975"
+  std::string name() const;       ///< "ggx+phong-1975"
+  std::string described() const;  ///< for people: "ggx + phong-1975 (turned back)"
   std::string variant() const;  ///< of each lobe, joined likewise
   const std::vector<ParameterInfo>& parameters() const { return parameters_; }
   std::size_t index_of(std::string_view parameter) const;  ///< InputError naming the parameters when unknown

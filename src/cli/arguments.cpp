@@ -117,8 +117,8 @@ std::vector<double> values_of(const std::map<std::string, double>& given, const 
     const auto found = given.find(std::string(p.name));
     if (found == given.end() && !p.fallback) {
       const std::string_view alpha = p.name == "m" ? " or alpha" : "", unit = p.unit == "1" ? "" : p.unit;
-      throw input_error("{}: {} is missing; expected --set {}=VALUE ({} to {} {}){}", sum.name(), p.name, p.name, p.lo,
-                        p.hi, unit, alpha);
+      throw input_error("{}: {} is missing; expected --set {}=VALUE ({} to {}{}{}){}", sum.name(), p.name, p.name, p.lo,
+                        p.hi, unit.empty() ? "" : " ", unit, alpha);
     }
     values.push_back(found == given.end() ? *p.fallback : found->second);
   }

@@ -29,16 +29,10 @@ std::vector<double> visible_nm(const FittedMaterial& material) {
 }
 
 BrdfOfPair function_of(const FittedMaterial& material, const std::vector<double>& wavelengths_nm) {
-  struct AtWavelength {
-    std::vector<Brdf<double>> lobes;
-    Interface<double> surface;
-    double um;
-  };
-  std::vector<AtWavelength> at;
-  for (const double nm : wavelengths_nm) at.push_back({material.brdfs(nm), material.surface(nm), nm * 1e-3});
+  std::vector<LobesOnSurface> at;
+  for (const double nm : wavelengths_nm) at.push_back(material.at(nm));
   return [at](const UnitVector<double>& i, const UnitVector<double>& o, std::size_t w) {
-    const AtWavelength& there = at[w];
-    return evaluate<double>(there.lobes, reduce(i.x, i.y, i.z, o.x, o.y, o.z), there.surface, there.um);
+    return at[w].f_per_sr(reduce(i.x, i.y, i.z, o.x, o.y, o.z));
   };
 }
 
@@ -93,14 +87,14 @@ void print_choice(const ModelChoice& choice, const std::vector<VisibleError>& se
                        return a.bic < b.bic;
                      })->bic;
   std::size_t width = 0;
-  for (const Candidate& c : choice.candidates) width = std::max(width, described(c.result.model).size());
+  for (const Candidate& c : choice.candidates) width = std::max(width, c.result.model.described().size());
   std::cout << fmt::format("{:<{}} {:>10} {:>10} {:>10} {:>22} {:>10} {:>10}{}\n", "model", width, "parameters",
                            "rms_log10", "held out", "excess over the best", "AICc", "BIC",
                            seen.empty() ? "" : "  largest dE");
   for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
     const Candidate& c = choice.candidates[i];
     std::cout << fmt::format(
-        "{:<{}} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}{}\n", described(c.result.model), width,
+        "{:<{}} {:>10} {:>10.3g} {:>10.3g} {:>22} {:>10.4g} {:>10.4g}{}{}\n", c.result.model.described(), width,
         c.parameters, c.result.all.rms_log10, c.held_out_log10,
         i == choice.best ? std::string("best") : fmt::format("{:.2g} +- {:.2g}", c.worse, c.uncertain), c.aicc - aicc,
         c.bic - bic, seen.empty() ? std::string() : fmt::format(" {:>11.3g}", seen[i].largest),
@@ -123,7 +117,7 @@ std::vector<VisibleError> content_with(ModelChoice& choice, double delta_e_2000)
   choice.chosen = cheapest;
   choice.sentence +=
       fmt::format("; for a tolerance of {:g} Delta E 2000 {} will do: on a lit sphere it differs by {:.2g} at most",
-                  delta_e_2000, described(choice.candidates[cheapest].result.model), seen[cheapest].largest);
+                  delta_e_2000, choice.candidates[cheapest].result.model.described(), seen[cheapest].largest);
   return seen;
 }
 

@@ -220,8 +220,7 @@ void add_to(std::optional<Mueller<double>>& sum, const std::optional<Mueller<dou
     if (one) sum = one;
     return;
   }
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c) sum->m[r][c] += one->m[r][c];
+  *sum += *one;
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class Progress {
 };
 
 void print_card(const FitResult& result, const Json& json) {
-  std::cout << fmt::format("{} of {} ({})\n", described(result.model),
+  std::cout << fmt::format("{} of {} ({})\n", result.model.described(),
                            result.name.empty() ? result.measurement_id : result.name,
                            result.material       ? *result.material
                            : result.absorption() ? "n, k fitted"

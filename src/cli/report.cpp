@@ -33,7 +33,7 @@ void remake(const ReportArguments& arguments, Common& common) {
                       page.name);
   const std::filesystem::path published = data_folder("reports") / page.name;
   const std::string out = arguments.out.empty() ? "out/reports/" + arguments.name : arguments.out;
-  page.remake(published, out);
+  page.remake(published, out, [](const std::string& part) { std::cerr << part << '\n'; });
   const std::vector<std::string> differences =
       arguments.check ? page_differences(published, out) : std::vector<std::string>{};
   if (!differences.empty()) common.exit_code = 1;

@@ -40,8 +40,9 @@ struct Taps {
   std::array<float, kTaps> weight;
 };
 Taps taps_at(float x, std::size_t count) {
-  const auto first =
-      static_cast<std::size_t>(std::clamp(std::floor(x) - 1.0F, 0.0F, static_cast<float>(count - kTaps)));
+  // A place that is no number takes the first taps: its value is none either.
+  const float below = x > 1 ? std::min(std::floor(x) - 1, static_cast<float>(count - kTaps)) : 0.0F;
+  const auto first = static_cast<std::size_t>(below);
   const float t = x - static_cast<float>(first), a = t - 1, b = t - 2, c = t - 3;
   return {first, {-a * b * c / 6, t * b * c / 2, -t * a * c / 2, t * a * b / 6}};
 }
@@ -92,8 +93,9 @@ double NodeTable::theta_deg(std::size_t cell) const {
 template <class T>
 std::pair<T, T> NodeTable::coordinates(const T& cos_i, const T& width) const {
   using std::log;
-  const T w = smaller_of(larger_of(width, T(kNarrowest)), T(widest_));
-  const T cosine = smaller_of(larger_of(cos_i, T(0.0)), T(1.0));
+  // The bound first: what is no number passes both, and is none in the end.
+  const T w = smaller_of(T(widest_), larger_of(T(kNarrowest), width));
+  const T cosine = smaller_of(T(1.0), larger_of(T(0.0), cos_i));
   const double per_log = static_cast<double>(grid_.rows - 1) / std::log(widest_ / kNarrowest);
   return {T(log(T(w * T(1 / kNarrowest)))) * T(per_log),
           column_share(cosine, w) * T(static_cast<double>(grid_.columns - 1))};

@@ -20,6 +20,14 @@ struct Mueller {
   std::array<std::array<T, 4>, 4> m;
 };
 
+/// Of light that adds up without interfering.
+template <class T>
+Mueller<T>& operator+=(Mueller<T>& sum, const Mueller<T>& one) {
+  for (std::size_t r = 0; r < 4; ++r)
+    for (std::size_t c = 0; c < 4; ++c) sum.m[r][c] += one.m[r][c];
+  return sum;
+}
+
 /// What an element does to the field: E_out = J·E_in, first index the polarisation that leaves.
 template <class T>
 struct Jones {

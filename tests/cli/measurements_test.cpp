@@ -2,35 +2,31 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
-#include "cli/command.h"
+#include "cli/json_of.h"
 
 using namespace gonio::test;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
 std::string sample(const std::string& name) { return std::string(GONIO_SOURCE_DIR) + "/tests/fit/samples/" + name; }
 
-Json json_of(std::vector<std::string> arguments) {
+Json answer_of(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "measurements");
-  arguments.push_back("--json");
-  const Outcome outcome = run_gonio(arguments);
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
-  return Json::parse(outcome.out);
+  return json_of(std::move(arguments));
 }
 
 }  // namespace
 
 TEST_CASE("measurements info says what is there and how it was read", "[cli][formats]") {
-  const Json info = json_of({"info", sample("painted.astm")});
+  const Json info = answer_of({"info", sample("painted.astm")});
   CHECK(info["points"] == 9);
   CHECK(info["incidences_deg"] == Json::array({30.0, 60.0}));
   CHECK(info["wavelengths_nm"] == Json::array({465.0, 525.0, 630.0}));
   CHECK(info["f_per_sr"] == Json::array({0.0625, 1.5}));
   CHECK(info["conventions"].size() == 4);
   CHECK(info["left_out"]["zenith angle of 90 degrees"] == 3);
-  CHECK(json_of({"info", std::string(GONIO_SOURCE_DIR) + "/measurements/aluminium-merl"})["conventions"].size() == 4);
+  CHECK(answer_of({"info", std::string(GONIO_SOURCE_DIR) + "/measurements/aluminium-merl"})["conventions"].size() == 4);
   const Outcome text = run_gonio({"measurements", "info", sample("he.txt")});
   CHECK(text.status == 0);
   CHECK(text.out.find("read as      azimuth: signed") != std::string::npos);
@@ -46,10 +42,10 @@ TEST_CASE("a broken file of a format's own ending is refused by that format's re
 
 TEST_CASE("measurements convert writes what reads back, and says what has no place", "[cli][formats]") {
   const Scratch scratch;
-  CHECK(json_of({"convert", sample("he.txt"), "-o", scratch.path("he")})["format"] == "csv");
-  const Json astm = json_of({"convert", sample("he.txt"), "-o", scratch.path("he.astm")});
+  CHECK(answer_of({"convert", sample("he.txt"), "-o", scratch.path("he")})["format"] == "csv");
+  const Json astm = answer_of({"convert", sample("he.txt"), "-o", scratch.path("he.astm")});
   CHECK(astm["not_written"] == Json::array({"standard deviations"}));
-  const Json same = json_of({"compare", scratch.path("he"), scratch.path("he.astm"), "--tolerance-deg", "0"});
+  const Json same = answer_of({"compare", scratch.path("he"), scratch.path("he.astm"), "--tolerance-deg", "0"});
   CHECK(same["compared"] == 3);
   CHECK(same["ratio_mean"] == 1.0);
   CHECK(same["rms_log10"] == 0.0);
@@ -61,7 +57,7 @@ TEST_CASE("measurements convert writes what reads back, and says what has no pla
 
 TEST_CASE("measurements plot draws; compare without a common direction is exit 1", "[cli][formats]") {
   const Scratch scratch;
-  CHECK(json_of({"plot", sample("vinyl.bsdf"), "-o", scratch.path("a.svg")})["curves"] == 2);
+  CHECK(answer_of({"plot", sample("vinyl.bsdf"), "-o", scratch.path("a.svg")})["curves"] == 2);
   const std::string svg = content_of(scratch.path("a.svg"));
   CHECK(svg.find("</svg>") != std::string::npos);
   CHECK(svg.find("30°") != std::string::npos);

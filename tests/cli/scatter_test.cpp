@@ -2,20 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
-#include "cli/command.h"
+#include "cli/json_of.h"
 
 using namespace gonio::test;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 namespace {
-
-Json json_of(std::vector<std::string> arguments) {
-  arguments.push_back("--json");
-  const Outcome outcome = run_gonio(arguments);
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
-  return Json::parse(outcome.out);
-}
 
 std::string measurement(const std::string& name) { return std::string(GONIO_SOURCE_DIR) + "/measurements/" + name; }
 

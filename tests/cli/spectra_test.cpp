@@ -5,22 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
-#include "cli/command.h"
+#include "cli/json_of.h"
 
 using namespace gonio::test;
-using Json = nlohmann::json;
-
-namespace {
-
-Json json_of(std::vector<std::string> arguments) {
-  arguments.emplace_back("--json");
-  const Outcome outcome = run_gonio(arguments);
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
-  return Json::parse(outcome.out);
-}
-
-}  // namespace
+using Json = nlohmann::ordered_json;
 
 TEST_CASE("light: temperature, efficacy, and watts from lumens", "[cli]") {
   const Json d65 = json_of({"light", "D65"});

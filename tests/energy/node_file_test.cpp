@@ -6,20 +6,12 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "catch.h"
-#include "cli/command.h"
+#include "cli/json_of.h"
 
 using namespace gonio;
 using namespace gonio::test;
 
 namespace {
-
-nlohmann::json json_of(std::vector<std::string> arguments) {
-  arguments.push_back("--json");
-  const Outcome outcome = run_gonio(arguments);
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
-  return nlohmann::json::parse(outcome.out);
-}
 
 std::string refusal(const std::filesystem::path& path) {
   try {

@@ -80,6 +80,8 @@ TEST_CASE("lookups in lanes are those one by one, and other lobes are refused", 
   table.reflectances(cos_i, m, kSurfaces[1], e);
   for (std::size_t i = 0; i < e.size(); ++i)
     CHECK(e[i] == Approx(table.reflectance(cos_i[i], m[i], kSurfaces[1])).margin(1e-6));
+  CHECK(std::isnan(
+      table.reflectance(NAN, 0.2, kSurfaces[1])));  // no number in, none out, and nothing read beyond the table
   spec.id = ModelId::ggx;
   CHECK_THROWS_AS(NodeTable(spec), InputError);
   spec.id = ModelId::torrance_sparrow;

@@ -269,6 +269,34 @@ TEST_CASE("nodes of an aperture average polynomials as the discs do", "[fit][ape
   CHECK(mixed == Approx(0).margin(1e-18));
 }
 
+TEST_CASE("through an aperture at the normal, in retro and at grazing", "[fit][aperture]") {
+  const std::vector<ApertureNode> nodes = aperture_nodes({6, 2});
+  const std::vector<Brdf<double>> lobes{
+      make_brdf<double>(spec_of("torrance-sparrow"), std::vector<double>{0.3, 0.1, 0.5})};
+  // Exactly the normal (no plane of the zenith), i = o, the mirror, and half the discs below the horizon.
+  for (const auto& [theta_i, theta_o, phi] : {std::array{0.0, 0.0, 0.0}, std::array{40.0, 40.0, 0.0},
+                                              std::array{60.0, 60.0, 180.0}, std::array{89.9, 89.9, 180.0}}) {
+    const Directions<double> w = directions_from_deg(theta_i, theta_o, phi);
+    const double mean = seen(lobes, w, perfect_interface<double>(), 0.55, nodes);
+    CHECK(std::isfinite(mean));
+    CHECK(mean > 0);
+    double below = 0;
+    for (const ApertureNode& node : nodes) {
+      double weight = 0;
+      const Directions<double> there = through(node, w, weight);
+      CHECK(weight >= 0);
+      CHECK(std::isfinite(there.tan2_h));
+      below += weight == 0;
+    }
+    CHECK((below > 0) == (theta_o > 85));
+  }
+  // A small aperture sees what its centre does.
+  const Directions<double> w = directions_from_deg(30.0, 20.0, 170.0);
+  const double centre = evaluate<double>(lobes, w, perfect_interface<double>(), 0.55);
+  CHECK(seen(lobes, w, perfect_interface<double>(), 0.55, aperture_nodes({0.01, 0.01})) ==
+        Approx(centre).epsilon(1e-6));
+}
+
 TEST_CASE("an aperture is taken out of the width of a narrow peak", "[fit][aperture]") {
   // f over a disc by brute force: 20 rings of 40, far more than the fit's nodes.
   const auto seen_by_disc = [](Measurement scan, const ModelSpec& spec, const std::vector<double>& values,

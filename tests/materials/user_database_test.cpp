@@ -10,11 +10,11 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "catch.h"
-#include "cli/command.h"
+#include "cli/json_of.h"
 
 using namespace gonio;
 using namespace gonio::test;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -26,13 +26,6 @@ struct UserDatabase {
 
 std::string table(double reflectance) {
   return fmt::format("# citation: a lab\nwavelength_nm,R\n400,{0}\n700,{0}\n", reflectance);
-}
-
-Json json_of(std::vector<std::string> arguments) {
-  arguments.emplace_back("--json");
-  const Outcome outcome = run_gonio(arguments);
-  REQUIRE(outcome.status == 0);
-  return Json::parse(outcome.out);
 }
 
 }  // namespace
