@@ -5,8 +5,9 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "energy/energy_file.h"
+#include "energy/energy_tables.h"
 #include "energy/limits_json.h"
-#include "energy/table.h"
 #include "fit/fit_json.h"
 #include "fit/fitted_material.h"
 #include "fit/gnuplot.h"
@@ -177,10 +178,10 @@ void check_energy(MaterialReport& report, const FittedMaterial& material, const 
   if (report.limits.worst_total > 1 + report.limits.worst_error) report.scale_to_limit = 1 / (report.limits.worst_total + report.limits.worst_error);
   write_file(folder / "limits.json", to_json(report.limits).dump(2) + "\n");
   write_file(folder / "table.csv", table_csv(report.limits));
-  if (report.fit().model.parameters().front().name == "m") {
-    ModelSpec spec = report.fit().model.first();
-    write_reflectance_table(make_reflectance_table(spec), folder / "lobe-table.exr");
-  }
+  const auto families = family_lobes(make_brdfs(report.fit().model, report.fit().values()).front().lobe);
+  if (!families.empty())
+    if (const EnergyTable* table = bundled_energy_table(*families.front().family))
+      write_energy_table(*table, folder / "lobe-table.exr");
   write_file(folder / "energy.svg", energy_svg(report));
   report.plots.push_back({"energy.svg", "Energy conservation: reflected share against the angle of incidence (source: adaptive "
                                         "quadrature of the fitted model)."});

@@ -90,14 +90,18 @@ fs::path data_folder(std::string_view name) {
   return folder;
 }
 
-fs::path data_file(std::string_view name) {
+std::optional<fs::path> find_data_file(std::string_view name) {
   fs::path file = beside_the_program(name, [](const fs::path& path) {
     std::error_code error;
     return fs::is_regular_file(path, error);
   });
-  if (file.empty())
-    throw input_error("{}: was not found; expected it beside the program, in share/gonio or under $GONIO_HOME", name);
+  if (file.empty()) return std::nullopt;
   return file;
+}
+
+fs::path data_file(std::string_view name) {
+  if (auto file = find_data_file(name)) return *file;
+  throw input_error("{}: was not found; expected it beside the program, in share/gonio or under $GONIO_HOME", name);
 }
 
 }  // namespace gonio

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,5 +36,7 @@ std::filesystem::path data_folder(std::string_view name);
 
 /// A file made by the build for the program (materials.sqlite): found as data_folder() finds folders.
 std::filesystem::path data_file(std::string_view name);
+/// The same; empty where there is none.
+std::optional<std::filesystem::path> find_data_file(std::string_view name);
 
 }  // namespace gonio

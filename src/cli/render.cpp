@@ -1,17 +1,14 @@
 #include "render/render.h"
 
-#include <unistd.h>
-
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
+#include "cli/progress.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "scene/scene_file.h"
@@ -23,29 +20,6 @@ struct Arguments {
   std::string scene, out, strategy = "mis";
   int spp = 64, width = 0, height = 0, max_depth = 8;
   double exposure = 1, at_nm = 0;
-};
-
-/// A bar on a terminal, a line every tenth elsewhere; nothing in the first second.
-class Progress {
- public:
-  void show(double done) {
-    const std::lock_guard lock(mutex_);
-    if (std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
-    const int step = terminal_ ? static_cast<int>(done * 100) : static_cast<int>(done * 10) * 10;
-    if (step <= shown_) return;
-    shown_ = step;
-    if (terminal_)
-      std::fprintf(stderr, "\rrender [%-25.*s] %3d %%%s", step / 4, "#########################", step,
-                   step == 100 ? "\n" : "");
-    else
-      std::fprintf(stderr, "render: %d %%\n", step);
-  }
-
- private:
-  std::mutex mutex_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  const bool terminal_ = isatty(2) != 0;
-  int shown_ = 0;
 };
 
 /// I.exr → I.png beside it.
@@ -74,7 +48,7 @@ void run(const Arguments& arguments, const Common& common) {
   const std::filesystem::path exr = arguments.out, png = png_beside(exr);
   for (const auto& path : {exr, png}) WholeFile refused_before_the_work(path);
 
-  Progress progress;
+  Progress progress("render");
   RenderSettings settings;
   settings.spp = arguments.spp;
   settings.max_depth = arguments.max_depth;

@@ -1,5 +1,3 @@
-#include "energy/table.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +8,10 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/subject.h"
+#include "energy/energy_file.h"
+#include "energy/energy_tables.h"
 #include "energy/limits_json.h"
+#include "cli/progress.h"
 
 namespace gonio::cli {
 namespace {
@@ -113,17 +114,32 @@ void run_limits(const TableArguments& arguments, Common& common) {
   common.exit_code = limits.holds() ? 0 : 1;
 }
 
+/// The families of which a model's isotropic lobe is made, whatever its width.
+std::vector<FamilyLobe> families_of(const ModelArguments& model) {
+  ModelArguments asked = model;
+  const ModelInfo& info = gonio::model(model.model);
+  for (const ParameterInfo& p : info.parameters)
+    if (!p.fallback) asked.settings.push_back(fmt::format("{}={}", p.name, std::clamp(0.5, p.lo, p.hi)));
+  const ChosenModel chosen = choose_model(asked);
+  const std::vector<FamilyLobe> families = family_lobes(make_brdfs(chosen.sum, chosen.values).front().lobe);
+  if (families.empty())
+    throw input_error("{}: has no table; expected isotropic facets of one width, bounded at grazing", model.model);
+  return families;
+}
+
 void run_table(const TableArguments& arguments) {
   if (arguments.model.model.empty() || arguments.out.empty())
-    throw input_error("gonio table: MODEL and --out are needed; expected `gonio table MODEL --out T.exr` or `gonio table limits MODEL`");
-  ModelSpec spec;
-  spec.id = model(arguments.model.model).id;
-  for (const std::string& setting : arguments.model.settings) {
-    if (!setting.starts_with("shadowing="))
-      throw input_error("--set {}: a table runs over the roughness; expected only shadowing=NAME", setting);
-    set_shadowing(spec, setting.substr(10));
+    throw input_error("gonio table: MODEL and --out are needed; expected `gonio table MODEL --out T.exr`, `gonio table all --out FOLDER`, `gonio table lookup MODEL` or `gonio table limits MODEL`");
+  Progress progress("table");
+  const auto show = [&](double done) { progress.show(done); };
+  if (arguments.model.model == "all") {
+    make_energy_tables(arguments.out, [](const std::string& line) { fmt::print(stderr, "{}\n", line); }, show);
+    return;
   }
-  write_reflectance_table(make_reflectance_table(spec), arguments.out);
+  const FamilyLobe lobe = families_of(arguments.model).front();
+  write_energy_table(EnergyTable(*lobe.family, show), arguments.out);
+  if (lobe.factor != 1)
+    fmt::print(stderr, "{}: the table of {}, of which it is a multiple\n", arguments.model.model, lobe.family->name);
 }
 
 }  // namespace
@@ -131,12 +147,13 @@ void run_table(const TableArguments& arguments) {
 void add_table(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("table", "Directional reflectance tables E(theta; m) and the limits of kd and ks");
   command->footer("Example: gonio table torrance-sparrow --set shadowing=v-cavity --out E.exr\n"
+                  "         gonio table all --out out/tables\n"
                   "         gonio table limits pseudo-realistic --set m=0.3 --material Au --at 550");
   add_common(*command, common);
   auto arguments = std::make_shared<TableArguments>();
-  command->add_option("model", arguments->model.model, "Model name");
+  command->add_option("model", arguments->model.model, "Model whose lobe is tabulated over the incidence and its width, for every material; or `all`");
   command->add_option("--set", arguments->model.settings, "shadowing=NAME")->allow_extra_args(false);
-  command->add_option("-o,--out", arguments->out, "OpenEXR file to write (a CSV of the same name beside it)");
+  command->add_option("-o,--out", arguments->out, "OpenEXR file to write (a CSV of E beside it); of `all` a folder");
 
   auto* limits = command->add_subcommand("limits", "ks_max, kd_max and E of a material or a fit; exit 1 when (43) is broken");
   limits->footer(
@@ -155,7 +172,8 @@ void add_table(CLI::App& app, Common& common) {
   limits->add_option("--angles", asked->angles, "Angles in degrees, 0 to 89.99, whose E is shown");
   limits->callback([&common, asked] { run_limits(*asked, common); });
   add_table_scatter(*command, common);
-  add_table_nodes(*command, common);
+  add_table_lookup(*command, common);
+  add_table_check(*command, common);
   command->callback([command, arguments] {
     if (command->get_subcommands().empty()) run_table(*arguments);
   });

@@ -1,6 +1,5 @@
 #include "energy/lobe_measure.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -64,11 +63,16 @@ void add_between(const Plane& plane, double a, double b, double tolerance, int h
       const double ring = add_ring(plane, middle + side * half * Kronrod::abscissa()[node], half * weight, to);
       difference += ring * (1 - (node % 2 == 0 ? Gauss::weights()[node / 2] / weight : 0.0));
     }
-  if (std::abs(difference) <= tolerance || halvings == 0) return;
+  if (std::abs(difference) <= tolerance || halvings == 0) {
+    to.error += std::abs(difference);
+    return;
+  }
   to.cos_d.resize(before), to.weight.resize(before);
   add_between(plane, a, middle, 0.5 * tolerance, halvings - 1, to);
   add_between(plane, middle, b, 0.5 * tolerance, halvings - 1, to);
 }
+
+}  // namespace
 
 bool plain_facets(const Lobe<double>& lobe) {
   return std::visit(
@@ -77,8 +81,6 @@ bool plain_facets(const Lobe<double>& lobe) {
       },
       lobe);
 }
-
-}  // namespace
 
 double LobeMeasure::total() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
 
@@ -93,43 +95,6 @@ LobeMeasure lobe_measure(const Lobe<double>& lobe, double theta_i_deg, double to
     if (points[p + 1] > points[p])
       add_between(plane, points[p], points[p + 1], tolerance / double(points.size()), kMostHalvings, measure);
   return measure;
-}
-
-double CosNodes::reflectance(const Interface<double>& surface) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < kCount; ++i) sum += weight[i] * surface.reflectance(cos_d[i]);
-  return sum;
-}
-
-CosNodes gauss_nodes(const LobeMeasure& measure) {
-  CosNodes nodes;
-  const auto count = Eigen::Index(measure.cos_d.size());
-  const Eigen::Map<const Eigen::ArrayXd> u(measure.cos_d.data(), count), w(measure.weight.data(), count);
-  const double total = w.sum();
-  if (!(total > 0)) return nodes;
-  const double middle = (w * u).sum() / total,
-               scale = std::max(std::sqrt((w * (u - middle).square()).sum() / total), 1e-12);
-  const Eigen::ArrayXd x = (u - middle) / scale;
-  constexpr auto kSize = Eigen::Index(CosNodes::kCount);
-  Eigen::VectorXd diagonal(kSize), off(kSize - 1);
-  Eigen::ArrayXd before = Eigen::ArrayXd::Zero(count), now = Eigen::ArrayXd::Ones(count) / std::sqrt(total);
-  double beta = 0;
-  for (Eigen::Index k = 0; k < kSize; ++k) {
-    const double alpha = (w * x * now.square()).sum();
-    diagonal[k] = alpha;
-    if (k + 1 == kSize) break;
-    const Eigen::ArrayXd next = (x - alpha) * now - beta * before;
-    beta = std::sqrt((w * next.square()).sum());
-    off[k] = beta;
-    before = now, now = next / std::max(beta, 1e-300);
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal, off);
-  for (Eigen::Index k = 0; k < kSize; ++k) {
-    nodes.cos_d[std::size_t(k)] = middle + scale * solver.eigenvalues()[k];
-    nodes.weight[std::size_t(k)] = total * square(solver.eigenvectors()(0, k));
-  }
-  return nodes;
 }
 
 }  // namespace gonio

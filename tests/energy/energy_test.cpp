@@ -2,7 +2,6 @@
 
 #include "catch.h"
 #include "energy/limits.h"
-#include "energy/table.h"
 #include "base/error.h"
 
 using namespace gonio;
@@ -123,12 +122,4 @@ TEST_CASE("Many wavelengths at once give what each gives alone", "[energy][slow]
       CHECK(together[i].value == Approx(alone).margin(2e-7));
     }
   }
-}
-
-TEST_CASE("A table holds E on its grid; models without m have none", "[energy]") {
-  const ReflectanceTable table = make_reflectance_table({ModelId::torrance_sparrow});
-  const double m = table.slope_rms[10], theta = table.theta_deg[20];
-  CHECK(table.at(10, 20) == Approx(directional_reflectance(TorranceSparrow<double>{std::sqrt(2.0) * m}, theta, kPerfect)[0].value).margin(2e-7));
-  for (const double e : table.e) CHECK((e > 0 && e < 1 + 1e-6));
-  CHECK_THROWS_AS(make_reflectance_table({ModelId::beckmann_kirchhoff}), InputError);
 }
