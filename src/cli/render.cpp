@@ -85,7 +85,10 @@ void add_render(CLI::App& app, Common& common) {
                                          "combined. Writes I.exr (spectral OpenEXR with "
                                          "R, G, B for ordinary viewers) and I.png.\nExample: gonio render "
                                          "scenes/sphere-on-ground.yaml --out gold.exr --spp 256");
-  command->add_option("scene", arguments->scene, "Scene file (YAML; see scenes/)")->required();
+  command
+      ->add_option("scene", arguments->scene,
+                   "Scene file (YAML; see scenes/): spheres, lights, and a ground and environment or a room")
+      ->required();
   command->add_option("-o,--out", arguments->out, "Image to write, I.exr; I.png appears beside it")->required();
   command->add_option("--spp", arguments->spp, "Paths a pixel")->capture_default_str()->check(CLI::Range(1, 100000000));
   command->add_option("--width", arguments->width, "Width in pixels, in place of the scene's")
@@ -93,7 +96,9 @@ void add_render(CLI::App& app, Common& common) {
   command->add_option("--height", arguments->height, "Height in pixels, in place of the scene's")
       ->check(CLI::Range(1, 16384));
   command->add_option("--at", arguments->at_nm, "Render this one wavelength (nm), grey")->check(CLI::Range(100.0, 1e5));
-  command->add_option("--max-depth", arguments->max_depth, "Reflections a path")
+  command
+      ->add_option("--max-depth", arguments->max_depth,
+                   "Most reflections of a path; between white walls take 1000, Russian roulette ends most sooner")
       ->capture_default_str()
       ->check(CLI::Range(0, 10000));
   command->add_option("--strategy", arguments->strategy, "mis, light or brdf: how lights are found")

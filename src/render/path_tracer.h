@@ -18,15 +18,17 @@ class PathTracer {
   using Lanes = SpectralLanes<N>;
   using Shader = SurfaceShader<N>;
 
-  PathTracer(std::vector<Shape> shapes, std::vector<std::size_t> materials, std::vector<Shader> shaders,
-             std::vector<SphericalLight> lights, std::vector<Lanes> emitted, Lanes environment,
-             const RenderSettings& settings)
-      : rays_(std::move(shapes)),
+  /// `shapes`: the lights, then what reflects, in the order of `materials`, in which a room comes last. `surroundings`:
+  /// the radiance of the environment, or of the room's walls.
+  PathTracer(std::vector<Shape> shapes, const std::optional<Room>& room, std::vector<std::size_t> materials,
+             std::vector<Shader> shaders, std::vector<SphericalLight> lights, std::vector<Lanes> emitted,
+             Lanes surroundings, const RenderSettings& settings)
+      : rays_(std::move(shapes), room),
         materials_(std::move(materials)),
         shaders_(std::move(shaders)),
         light_sampler_(std::move(lights)),
         emitted_(std::move(emitted)),
-        environment_(environment),
+        surroundings_(surroundings),
         strategy_(settings.strategy),
         max_depth_(settings.max_depth) {}
 
@@ -37,12 +39,14 @@ class PathTracer {
     Arrival arrival;
     for (int depth = 0;; ++depth) {
       const auto hit = rays_.closest(origin, direction, leaving);
-      if (!hit) return sum += throughput * environment_;
+      // Light sampling never looks for the surroundings: what they emit counts in full. Walls reflect as well.
+      if (!hit) return sum += throughput * surroundings_;
+      if (hit->shape == rays_.room_shape()) sum += throughput * surroundings_;
       if (const Lanes* emitted = emitted_by(hit->shape)) {
         return sum += throughput * *emitted * static_cast<float>(brdf_share(origin, direction, arrival));
       }
       if (depth >= max_depth_) return sum;
-      const Shader& shader = shaders_[materials_[hit->shape]];
+      const Shader& shader = shaders_[materials_[hit->shape - emitted_.size()]];
       const Frame frame(hit->normal);
       const LocalDirection o = frame.to_local(-direction);
       if (o.z <= 0) return sum;
@@ -63,10 +67,8 @@ class PathTracer {
  private:
   static constexpr int kSureDepth = 3;  ///< reflections before Russian roulette
 
-  /// Lights follow the other shapes.
-  const Lanes* emitted_by(std::size_t shape) const {
-    return shape < materials_.size() ? nullptr : &emitted_[shape - materials_.size()];
-  }
+  /// Of a light; null for what reflects.
+  const Lanes* emitted_by(std::size_t shape) const { return shape < emitted_.size() ? &emitted_[shape] : nullptr; }
 
   /// How the ray under way was drawn: from the eye or a delta, where light sampling has no say, or with a density.
   struct Arrival {
@@ -108,7 +110,7 @@ class PathTracer {
   std::vector<Shader> shaders_;
   LightSampler light_sampler_;
   std::vector<Lanes> emitted_;
-  Lanes environment_;
+  Lanes surroundings_;
   Strategy strategy_;
   int max_depth_;
 };

@@ -2,7 +2,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <stdexcept>
@@ -72,6 +74,21 @@ std::optional<double> distance_to_sphere(const Vector& origin, const Vector& dir
   return outside / (along + std::sqrt(half_chord2));
 }
 
+Hit wall_hit(const Room& room, std::size_t shape, const Vector& origin, const Vector& direction) {
+  const auto wall = [&](int axis) { return (direction[axis] > 0 ? room.upper : room.lower)[axis]; };
+  double nearest = std::numeric_limits<double>::infinity();
+  int met = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0) continue;
+    const double t = (wall(axis) - origin[axis]) / direction[axis];
+    if (t < nearest) nearest = t, met = axis;
+  }
+  Hit hit{shape, glm::clamp(origin + std::max(nearest, 0.0) * direction, room.lower, room.upper), Vector(0)};
+  hit.point[met] = wall(met);
+  hit.normal[met] = direction[met] > 0 ? -1 : 1;
+  return hit;
+}
+
 struct RayScene::Embree {
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = nullptr;
@@ -98,8 +115,8 @@ struct RayScene::Embree {
   }
 };
 
-RayScene::RayScene(std::vector<Shape> shapes)
-    : shapes_(std::move(shapes)), embree_(std::make_unique<Embree>(shapes_)) {}
+RayScene::RayScene(std::vector<Shape> shapes, const std::optional<Room>& room)
+    : shapes_(std::move(shapes)), room_(room), embree_(std::make_unique<Embree>(shapes_)) {}
 RayScene::~RayScene() = default;
 
 std::optional<Hit> RayScene::closest(const Vector& origin, const Vector& direction, std::size_t leaving) const {
@@ -119,8 +136,10 @@ std::optional<Hit> RayScene::closest(const Vector& origin, const Vector& directi
   ray.ray.mask = 0xffffffffU;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene, &query, &ray);
-  if (query.shape == kNoShape) return {};
-
+  if (query.shape == kNoShape) {
+    if (room_) return wall_hit(*room_, room_shape(), origin, direction);
+    return {};
+  }
   const Shape& shape = shapes_[query.shape];
   const Vector point = origin + query.nearest * direction;
   if (shape.kind == Shape::Kind::disc) return Hit{query.shape, {point.x, point.y, shape.center.z}, {0, 0, 1}};

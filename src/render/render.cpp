@@ -41,6 +41,11 @@ template <std::size_t N>
 PathTracer<N> make_tracer(const Scene& scene, const RenderSettings& settings) {
   const std::vector<double>& wavelengths_nm = scene.wavelengths_nm;
   std::vector<Shape> shapes;
+  std::vector<SpectralLanes<N>> emitted;
+  for (const SphericalLight& light : scene.lights) {
+    shapes.push_back({Shape::Kind::sphere, light.center, light.radius});
+    emitted.push_back(lanes_of<N>(light.emission, wavelengths_nm));
+  }
   std::vector<std::size_t> materials;
   for (const SphereObject& sphere : scene.spheres) {
     shapes.push_back({Shape::Kind::sphere, sphere.center, sphere.radius});
@@ -50,16 +55,18 @@ PathTracer<N> make_tracer(const Scene& scene, const RenderSettings& settings) {
     shapes.push_back({Shape::Kind::disc, {0, 0, scene.ground->height}, scene.ground->radius});
     materials.push_back(scene.ground->material);
   }
+  if (scene.room) materials.push_back(scene.room->material);
   std::vector<SurfaceShader<N>> shaders;
   for (const SceneMaterial& material : scene.materials)
     shaders.emplace_back(material.model, values_of(material), interfaces(material, wavelengths_nm), wavelengths_nm);
-  std::vector<SpectralLanes<N>> emitted;
-  for (const SphericalLight& light : scene.lights) {
-    shapes.push_back({Shape::Kind::sphere, light.center, light.radius});
-    emitted.push_back(lanes_of<N>(light.emission, wavelengths_nm));
-  }
-  return {std::move(shapes), std::move(materials), std::move(shaders),
-          scene.lights,      std::move(emitted),   lanes_of<N>(scene.environment, wavelengths_nm),
+  const Emission& surroundings = scene.room ? scene.room->emission : scene.environment;
+  return {std::move(shapes),
+          scene.room,
+          std::move(materials),
+          std::move(shaders),
+          scene.lights,
+          std::move(emitted),
+          lanes_of<N>(surroundings, wavelengths_nm),
           settings};
 }
 

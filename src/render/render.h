@@ -8,7 +8,8 @@
 
 namespace gonio {
 
-/// How the light of the spherical lights is looked for. The environment is always found by BRDF sampling.
+/// How the light of the spherical lights is looked for. The environment and the shining walls of a room are always
+/// found by BRDF sampling.
 enum class Strategy {
   mis,    ///< light and BRDF sampling, weighted by the balance heuristic (Veach & Guibas 1995)
   light,  ///< light sampling only (but for light met through a coherent delta)

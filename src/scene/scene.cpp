@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "base/error.h"
 #include "materials/database.h"
@@ -9,7 +10,6 @@
 namespace gonio {
 namespace {
 
-constexpr double kFarthest = 1e4;
 constexpr double kMostValues = 2.5e8;  // pixels times wavelengths: 2 GB in double
 
 void check_range(std::string_view what, double value, double lo, double hi) {
@@ -32,12 +32,20 @@ void check_camera(const Camera& camera) {
 
 void check_ball(std::string_view what, const Vector& center, double radius) {
   check_point(fmt::format("{} center", what), center);
-  check_range(fmt::format("{} radius", what), radius, 1e-4, kFarthest);
+  check_range(fmt::format("{} radius", what), radius, kLeastRadius, kFarthest);
 }
 
 void check_emission(std::string_view what, const Emission& emission, const std::vector<double>& wavelengths_nm) {
   check_range(fmt::format("{} radiance", what), emission.radiance, 0, 1e12);
   for (const double wavelength : wavelengths_nm) radiance_at(emission, wavelength);
+}
+
+/// What touches a wall is inside.
+void check_inside(const Room& room, std::string_view what, const Vector& center, double radius) {
+  constexpr double kRounding = 1e-11;  // of sums of decimals up to kFarthest
+  for (int axis = 0; axis < 3; ++axis)
+    if (center[axis] - radius < room.lower[axis] - kRounding || center[axis] + radius > room.upper[axis] + kRounding)
+      throw input_error("{} is not wholly inside the room; expected everything between its walls", what);
 }
 
 void check_wavelengths(const std::vector<double>& wavelengths_nm) {
@@ -68,6 +76,26 @@ double radiance_at(const Emission& emission, double wavelength_nm) {
   return emission.radiance * entry.at(wavelength_nm) / entry.at(kReference_nm);
 }
 
+void check_room(const Scene& scene) {
+  if (!scene.room) return;
+  const Room& room = *scene.room;
+  check_point("room from", room.lower);
+  check_point("room to", room.upper);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(room.upper[axis] - room.lower[axis] >= kLeastRadius))
+      throw input_error("room reaches from {} to {} in {}; expected it to be at least {} wide", room.lower[axis],
+                        room.upper[axis], "xyz"[axis], kLeastRadius);
+  check_emission("room", room.emission, scene.wavelengths_nm);
+  const Vector& eye = scene.camera.position;
+  if (!glm::all(glm::lessThan(room.lower, eye) && glm::lessThan(eye, room.upper)))
+    throw input_error("the camera is not inside the room; expected it between the walls");
+  for (const SphereObject& sphere : scene.spheres) check_inside(room, "a sphere", sphere.center, sphere.radius);
+  for (const SphericalLight& light : scene.lights) check_inside(room, "a light", light.center, light.radius);
+  if (scene.ground) throw input_error("a room and a ground are both given; expected one of them (a room has a floor)");
+  if (scene.environment.radiance > 0)
+    throw input_error("a room hides the environment; expected environment radiance 0, or lights inside the room");
+}
+
 void check(const Scene& scene) {
   check_camera(scene.camera);
   check_wavelengths(scene.wavelengths_nm);
@@ -93,8 +121,9 @@ void check(const Scene& scene) {
       throw input_error("the camera is inside a sphere; expected it outside of every object");
   if (scene.ground) {
     check_range("ground height", scene.ground->height, -kFarthest, kFarthest);
-    check_range("ground radius", scene.ground->radius, 1e-4, kFarthest);
+    check_range("ground radius", scene.ground->radius, kLeastRadius, kFarthest);
   }
+  check_room(scene);
   for (const SceneMaterial& material : scene.materials) {
     material.model.check(material.values);
     for (const std::vector<double>& values : material.by_wavelength) material.model.check(values);

@@ -11,8 +11,10 @@
 
 namespace gonio {
 
-/// z is up. Lengths in any one unit (angles and ratios are all that matters), |coordinate| <= 10000.
+/// z is up. Lengths in any one unit (angles and ratios are all that matters), |coordinate| <= kFarthest.
 using Vector = glm::dvec3;
+
+inline constexpr double kFarthest = 1e4, kLeastRadius = 1e-4;
 
 struct Camera {
   Vector position{0, -6, 2}, look_at{0, 0, 1};
@@ -56,12 +58,20 @@ struct SphericalLight {
   Emission emission;
 };
 
+/// A closed box around everything else, seen from inside. Its walls reflect, and may emit (Lambertian) as well.
+struct Room {
+  Vector lower{-3, -3, 0}, upper{3, 3, 4};
+  std::size_t material = 0;
+  Emission emission{0, "constant"};
+};
+
 struct Scene {
   Camera camera;
   std::vector<SceneMaterial> materials;
   std::vector<SphereObject> spheres;
   std::optional<GroundObject> ground;
   std::vector<SphericalLight> lights;
+  std::optional<Room> room;
   Emission environment{0, "constant"};  ///< from every direction
   std::vector<double> wavelengths_nm;   ///< increasing, 1 to kMaxWavelengths
 };
@@ -76,6 +86,9 @@ double radiance_at(const Emission& emission, double wavelength_nm);
 
 /// InputError when something cannot be rendered: a size outside its range, the camera or a light inside a sphere.
 void check(const Scene& scene);
+
+/// The part of check() that concerns the room: its size, and that it holds everything, and nothing that it would hide.
+void check_room(const Scene& scene);
 
 /// Sphere on a grey ground (Lambert 0.4) under a soft spherical light from the upper left and a constant environment,
 /// 320 × 240, D65 for the visible wavelengths, constant spectra for a single one. Lit so that a white diffuse surface

@@ -11,7 +11,7 @@
 namespace gonio {
 namespace {
 
-constexpr double kFarthest = 1e4, kLeastRadius = 1e-4, kBrightest = 1e12;
+constexpr double kBrightest = 1e12;
 constexpr std::size_t kMostObjects = 1000;
 
 /// Runs a step of reading; what it refuses is told with the line of the key it read.
@@ -38,6 +38,13 @@ Camera read_camera(YamlMap map) {
 Emission read_emission(YamlMap& map) {
   Emission emission{map.number("radiance", 0, kBrightest), map.text_or("illuminant", "constant")};
   at_line(map, "illuminant", [&] { return radiance_at(emission, 560); });
+  return emission;
+}
+
+/// {radiance, illuminant}, and nothing else.
+Emission read_only_emission(YamlMap map) {
+  const Emission emission = read_emission(map);
+  map.finish();
   return emission;
 }
 
@@ -127,6 +134,13 @@ std::vector<YamlMap> list_of_maps(YamlMap& map, std::string_view key, std::strin
   return maps;
 }
 
+Room read_room(YamlMap map, const Scene& scene) {
+  Room room{map.point("from"), map.point("to"), material_index(map, scene)};
+  if (map.has("emission")) room.emission = read_only_emission(map.map("emission"));
+  map.finish();
+  return room;
+}
+
 void read_objects(YamlMap& map, Scene& scene) {
   if (map.has("spheres")) {
     for (YamlMap& one : list_of_maps(map, "spheres", "a sphere")) {
@@ -147,6 +161,7 @@ void read_objects(YamlMap& map, Scene& scene) {
       one.finish();
     }
   }
+  if (map.has("room")) scene.room = read_room(map.map("room"), scene);
 }
 
 /// {from, to, step}
@@ -200,13 +215,10 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   for (const std::string& name : materials.keys())
     scene.materials.push_back(read_material(name, materials.map(name), scene.wavelengths_nm));
   read_objects(map, scene);
-  if (map.has("environment")) {
-    YamlMap environment = map.map("environment");
-    scene.environment = read_emission(environment);
-    environment.finish();
-  }
+  if (map.has("environment")) scene.environment = read_only_emission(map.map("environment"));
   map.finish();
   check_materials(materials, scene);
+  if (scene.room) at_line(map, "room", [&] { check_room(scene); });
   at_line(map, "", [&] { check(scene); });
   return scene;
 }

@@ -132,6 +132,67 @@ TEST_CASE("a mistake in a scene is refused with its line", "[scene]") {
     CHECK(refusal(text) != "accepted");
 }
 
+TEST_CASE("a room takes the place of ground and environment", "[scene]") {
+  const std::string good = R"(camera: {position: [0, -2, 2], look_at: [0, 0, 1]}
+materials:
+  white: {model: lambert, set: {kd: 0.9}}
+spheres:
+  - {center: [0.7, 0, 0.3], radius: 0.3, material: white}
+lights:
+  - {center: [0, 0, 3], radius: 0.5, radiance: 9}
+room:
+  from: [-3, -3, 0]
+  to: [1, 3, 4]
+  material: white
+  emission: {radiance: 2, illuminant: D65}
+)";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const Scene scene = parse_scene(good, "s.yaml");  // the sphere touches two walls
+  REQUIRE(scene.room);
+  CHECK(scene.room->lower == Vector(-3, -3, 0));
+  CHECK(scene.room->upper == Vector(1, 3, 4));
+  CHECK(scene.room->emission.radiance == 2);
+  CHECK(scene.room->emission.illuminant == "D65");
+  CHECK(parse_scene(with("  emission: {radiance: 2, illuminant: D65}\n", ""), "s").room->emission.radiance == 0);
+  CHECK_NOTHROW(parse_scene(good + "environment: {radiance: 0}\n", "s"));
+
+  struct Mistake {
+    const char *from, *to, *line, *about;
+  };
+  const Mistake mistakes[] = {
+      {"  from: [-3, -3, 0]\n", "", "s.yaml:9:", "no `from`"},
+      {"[-3, -3, 0]", "[-3, -3]", "s.yaml:9:", "point"},
+      {"[-3, -3, 0]", "[-3, -30000, 0]", "s.yaml:9:", "-30000"},
+      {"[-3, -3, 0]", "[-3, 3, 0]", "s.yaml:9:", "from 3 to 3 in y"},
+      {"[-3, -3, 0]", "[-3, 4, 0]", "s.yaml:9:", "from 4 to 3 in y"},
+      {"[-3, -3, 0]", "[-3, -3, 3.99999]", "s.yaml:9:", "in z"},
+      {"[-3, -3, 0]", "[0.5, -3, 0]", "s.yaml:9:", "camera is not inside"},
+      {"[0, -2, 2]", "[0, -3, 2]", "s.yaml:9:", "camera is not inside"},
+      {"[-3, -3, 0]", "[-3, -3, 0.01]", "s.yaml:9:", "sphere is not wholly inside"},
+      {"[0, 0, 3]", "[0, 0, 3.6]", "s.yaml:9:", "light is not wholly inside"},
+      {"  material: white\n", "  material: red\n", "s.yaml:11:", "`red`"},
+      {"  material: white\n", "", "s.yaml:9:", "no `material`"},
+      {"radiance: 2,", "radiance: -2,", "s.yaml:12:", "radiance"},
+      {"radiance: 2,", "", "s.yaml:12:", "no `radiance`"},
+      {"D65", "Au_Johnson", "s.yaml:12:", "illuminant"},
+      {"D65", "D65, shine: 1", "s.yaml:12:", "shine"},
+      {"  material: white\n", "  material: white\n  floor: white\n", "s.yaml:12:", "floor"},
+      {"room:", "ground: {material: white}\nroom:", "s.yaml:10:", "a ground"},
+      {"room:", "environment: {radiance: 1}\nroom:", "s.yaml:10:", "environment"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const std::string message = refusal(with(mistake.from, mistake.to));
+    INFO(mistake.to << " -> " << message);
+    CHECK(message.starts_with(mistake.line));
+    CHECK(message.find(mistake.about) != std::string::npos);
+    CHECK(message.find("expected") != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+  }
+}
+
 TEST_CASE("every bundled scene can be read and says what it validates", "[scene]") {
   int scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(GONIO_SOURCE_DIR "/scenes")) {
@@ -141,7 +202,7 @@ TEST_CASE("every bundled scene can be read and says what it validates", "[scene]
     CHECK(read_file(file.path()).starts_with("# Validates: "));
     ++scenes;
   }
-  CHECK(scenes >= 5);
+  CHECK(scenes >= 7);
 }
 
 TEST_CASE("a fitted material renders where its fit speaks, and nowhere else", "[scene]") {
