@@ -32,6 +32,7 @@ void add_fit(CLI::App& app, Common& common);
 void add_export(CLI::App& app, Common& common);
 void add_batch(CLI::App& app, Common& common);
 void add_table(CLI::App& app, Common& common);
+void add_table_instrument(CLI::App& table, Common& common);
 void add_table_scatter(CLI::App& table, Common& common);
 void add_table_lookup(CLI::App& table, Common& common);
 void add_table_check(CLI::App& table, Common& common);

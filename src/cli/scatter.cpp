@@ -5,8 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "cli/commands.h"
+#include "cli/cone_axis.h"
 #include "cli/subject.h"
 #include "energy/cone_reflectance.h"
 
@@ -22,20 +22,6 @@ struct ScatterArguments {
   std::string axis = "mirror";
   double theta_i_deg = 0, half_angle_deg = 90, phi_i_deg = 0;
 };
-
-/// mirror, normal, or THETA,PHI.
-Cone cone_of(const ScatterArguments& a) {
-  if (a.axis == "mirror") return {a.theta_i_deg, 180, a.half_angle_deg};
-  if (a.axis == "normal") return {0, 0, a.half_angle_deg};
-  const std::size_t comma = a.axis.find(',');
-  if (comma == a.axis.npos)
-    throw input_error("--axis {}: is no direction; expected mirror, normal or THETA,PHI in degrees", a.axis);
-  const Cone cone{number_in(a.axis.substr(0, comma), "--axis"), number_in(a.axis.substr(comma + 1), "--axis"),
-                  a.half_angle_deg};
-  if (!(cone.theta_deg >= 0 && cone.theta_deg <= 90))
-    throw input_error("--axis {}: theta is {}; expected 0 to 90", a.axis, cone.theta_deg);
-  return cone;
-}
 
 struct Scatter {
   ConeReflectance cone, hemisphere;
@@ -75,7 +61,7 @@ void run_scatter(const ScatterArguments& a, Common& common) {
   const std::vector<Brdf<double>> lobes = make_brdfs(subject.model.sum, subject.values_at(nm));
   const Interface<double> surface = subject.surface.at(nm);
   const double um = nm > 0 ? nm * 1e-3 : 1;
-  const Cone cone = cone_of(a);
+  const Cone cone = cone_about(a.axis, a.theta_i_deg, a.half_angle_deg);
   const std::optional<Cone> stop = a.stop_deg ? std::optional(Cone{a.theta_i_deg, 180, *a.stop_deg}) : std::nullopt;
   constexpr double kTolerance = 1e-6;
   const Scatter found{

@@ -171,6 +171,7 @@ void add_table(CLI::App& app, Common& common) {
   limits->add_option("--at", asked->at_nm, "Wavelength in nm; without it the worst over the visible range of the data");
   limits->add_option("--angles", asked->angles, "Angles in degrees, 0 to 89.99, whose E is shown");
   limits->callback([&common, asked] { run_limits(*asked, common); });
+  add_table_instrument(*command, common);
   add_table_scatter(*command, common);
   add_table_lookup(*command, common);
   add_table_check(*command, common);

@@ -1,11 +1,21 @@
 #pragma once
 // energy: directional reflectance, conservation limits and tables.
 #include <Eigen/Core>
+#include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <span>
 #include <vector>
 
 namespace gonio {
+
+/// Keeps what lies inside (lo, hi), sorted, with the two ends.
+inline std::vector<double> breakpoints(double lo, double hi, const std::vector<double>& inside) {
+  std::vector<double> points{lo, hi};
+  for (const double x : inside)
+    if (x > lo && x < hi) points.push_back(x);
+  std::sort(points.begin(), points.end());
+  return points;
+}
 
 /// Several integrals at once (one a wavelength), with a bound on the error of the worst.
 struct Integral {

@@ -150,7 +150,7 @@ std::vector<Estimate> reflectance_about_axis(const Lafortune<double>& lobe, doub
       integrate_adaptively(integrand, breakpoints(0, 1, {kink}), static_cast<Eigen::Index>(surface.size()), tolerance));
 }
 
-/// f ~ cos_o^-3: ∫ f·cos_o dω_o has no value, and a quadrature would look for it for ever.
+// ∫ f·cos_o dω_o has no value, and a quadrature would look for it for ever.
 void refuse_infinite(const Lobe<double>& lobe) {
   const auto* kirchhoff = std::get_if<BeckmannKirchhoff<double>>(&lobe);
   if (kirchhoff && kirchhoff->form == KirchhoffForm::nieto_vesperinas_1982)

@@ -29,6 +29,9 @@ std::vector<Estimate> directional_reflectance(const Lobe<double>& lobe, double t
                                               const SpectralSurface& surface, double tolerance = 1e-7,
                                               double phi_i_deg = 0);
 
+/// InputError for a lobe whose E is infinite (f grows as cos_o^-3 next to the horizon).
+void refuse_infinite(const Lobe<double>& lobe);
+
 /// Whether E depends on phi_i_deg (it is the same at -phi and 180° - phi).
 bool looks_at_the_grain(const Lobe<double>& lobe);
 

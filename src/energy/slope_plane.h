@@ -9,15 +9,6 @@
 
 namespace gonio {
 
-/// Keeps what lies inside (lo, hi), sorted, with the two ends.
-inline std::vector<double> breakpoints(double lo, double hi, const std::vector<double>& inside) {
-  std::vector<double> points{lo, hi};
-  for (const double x : inside)
-    if (x > lo && x < hi) points.push_back(x);
-  std::sort(points.begin(), points.end());
-  return points;
-}
-
 /// The half vector's slope plane in polar coordinates, tan θ_h and azimuth φ from the plane of incidence, which lies at phi_i from the
 /// grain. Isotropic lobes are the same on both sides of it.
 template <class Spectrum>
