@@ -73,7 +73,8 @@ void quadrature(benchmark::State& state) {
   for (auto _ : state)
     for (std::size_t i = 0; i < p.e.size(); ++i) {
       const double theta_deg = std::acos(double(p.cos_theta[i])) * 180 / kPi<double>;
-      benchmark::DoNotOptimize(directional_reflectance(family().lobe(double(p.alpha[i])), theta_deg, glass, 1e-5).front().value);
+      benchmark::DoNotOptimize(
+          directional_reflectance(family().lobe(double(p.alpha[i])), theta_deg, glass, 1e-5).front().value);
     }
   state.SetItemsProcessed(state.iterations() * std::int64_t(p.e.size()));
 }

@@ -166,10 +166,13 @@ void render_one(MaterialReport& report, const FittedMaterial& material, double s
   render_settings.seed = settings.seed;
   render_settings.threads = settings.threads;
   render_settings.variance = false;
+  render_settings.energy = EnergyRule::allow_gain;  // a fit is shown as it is, and what it gains is said beside it
   const RenderResult result = render(scene, render_settings);
   write_spectral_exr(folder / (name + ".exr"), result.image);
   write_png(folder / (name + ".png"), result.image, 1);
-  report.renders.push_back({name + ".png", render_caption(report, material, scale)});
+  std::string caption = render_caption(report, material, scale);
+  for (const std::string& gain : result.gains) caption += fmt::format(" Not conserving: {}.", gain);
+  report.renders.push_back({name + ".png", caption});
 }
 
 void check_energy(MaterialReport& report, const FittedMaterial& material, const fs::path& folder, const ValidationSettings& settings) {

@@ -45,7 +45,8 @@ double asked_alpha(const LookupArguments& a, const EnergyTable& table) {
   else
     throw input_error("--set {}: unknown here; expected alpha=VALUE or m=VALUE", text);
   if (!(alpha >= kNarrowestAlpha && alpha <= table.grid().widest))
-    throw input_error("alpha={:.6g}: outside the table; expected {} to {:.6g}", alpha, kNarrowestAlpha, table.grid().widest);
+    throw input_error("alpha={:.6g}: outside the table; expected {} to {:.6g}", alpha, kNarrowestAlpha,
+                      table.grid().widest);
   return alpha;
 }
 
@@ -64,7 +65,8 @@ Found look_up(const LookupArguments& a, const Interface<double>& surface) {
   if (model.sum.is_sum()) throw input_error("{}: is a sum; expected one lobe", a.model.model);
   const Brdf<double> brdf = make_brdfs(model.sum, model.values).front();
   const double um = a.at_nm.value_or(550) * 1e-3;
-  if (model.sum.needs_wavelength() && !a.at_nm) throw input_error("{}: needs a wavelength; expected --at NM", a.model.model);
+  if (model.sum.needs_wavelength() && !a.at_nm)
+    throw input_error("{}: needs a wavelength; expected --at NM", a.model.model);
   const LobeEnergy energy(brdf.lobe, {{surface}, {um}});
   return {a.model.model, energy.from_table() ? "tables" : "quadrature", energy.at(0).around(), energy.error()};
 }
@@ -80,12 +82,9 @@ void run(const LookupArguments& a, const Common& common) {
   const auto largest = found.curve.largest();
   const double largest_deg = std::acos(largest.cos_theta) * 180 / kPi<double>;
   if (common.json) {
-    std::cout << Json{{"model", found.model},
-                      {"material", surface.name()},
-                      {"source", found.source},
-                      {"E", rows},
-                      {"E_mean", found.curve.mean()},
-                      {"E_max", {{"theta_deg", largest_deg}, {"E", largest.value}}},
+    std::cout << Json{{"model", found.model},         {"material", surface.name()},
+                      {"source", found.source},       {"E", rows},
+                      {"E_mean", found.curve.mean()}, {"E_max", {{"theta_deg", largest_deg}, {"E", largest.value}}},
                       {"error", found.error}}
                      .dump(2)
               << '\n';
@@ -95,18 +94,21 @@ void run(const LookupArguments& a, const Common& common) {
              "theta_deg", "E (ks = 1)", found.error);
   for (const Json& row : rows)
     fmt::print("{:>10g} {:>12.6f}\n", row["theta_deg"].get<double>(), row["E"].get<double>());
-  fmt::print("hemispherical mean {:.6f}; largest {:.6f} at {:.4g} degrees\n", found.curve.mean(), largest.value, largest_deg);
+  fmt::print("hemispherical mean {:.6f}; largest {:.6f} at {:.4g} degrees\n", found.curve.mean(), largest.value,
+             largest_deg);
 }
 
 }  // namespace
 
 void add_table_lookup(CLI::App& table, Common& common) {
-  auto* command = table.add_subcommand("lookup", "E of a lobe on a material from the tables, its mean and largest value");
+  auto* command =
+      table.add_subcommand("lookup", "E of a lobe on a material from the tables, its mean and largest value");
   command->alias("nodes");
   command->footer(
       "Example: gonio table lookup torrance-sparrow --set m=0.2 --material Au --at 550 --angles 0,45,80\n"
       "         gonio table lookup E.exr --set alpha=0.3 --n 1.5\n"
-      "One table serves every material: E = sum of W_i(theta, alpha) R(u_i) over 20 fixed cosines. Lobes without a table "
+      "One table serves every material: E = sum of W_i(theta, alpha) R(u_i) over 20 fixed cosines. Lobes without a "
+      "table "
       "are\nintegrated at 68 angles.");
   add_common(*command, common);
   auto a = std::make_shared<LookupArguments>();

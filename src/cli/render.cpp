@@ -17,7 +17,7 @@ namespace gonio::cli {
 namespace {
 
 struct Arguments {
-  std::string scene, out, strategy = "mis";
+  std::string scene, out, strategy = "mis", energy = "conserve";
   int spp = 64, width = 0, height = 0, max_depth = 8;
   double exposure = 1, at_nm = 0;
 };
@@ -57,7 +57,10 @@ void run(const Arguments& arguments, const Common& common) {
   settings.variance = common.json;
   settings.strategy = strategy_from(arguments.strategy);
   settings.progress = [&](double done) { progress.show(done); };
+  if (arguments.energy == "allow-gain") settings.energy = EnergyRule::allow_gain;
+  if (arguments.energy == "unchecked") settings.energy = EnergyRule::unchecked;
   const RenderResult result = render(scene, settings);
+  for (const std::string& gain : result.gains) fmt::print(stderr, "render: {}\n", gain);
   if (result.dropped_paths > 0)
     fmt::print(stderr, "render: {} paths overflowed and count as black\n", result.dropped_paths);
   write_spectral_exr(exr, result.image);
@@ -71,6 +74,7 @@ void run(const Arguments& arguments, const Common& common) {
                                       {"spp", arguments.spp},
                                       {"seed", common.seed},
                                       {"dropped_paths", result.dropped_paths},
+                                      {"gains", result.gains},
                                       {"relative_noise_rms", relative_noise(result)}};
     fmt::print("{}\n", json.dump(2));
   }
@@ -103,6 +107,13 @@ void add_render(CLI::App& app, Common& common) {
       ->check(CLI::Range(0, 10000));
   command->add_option("--strategy", arguments->strategy, "mis, light or brdf: how lights are found")
       ->capture_default_str();
+  command
+      ->add_option(
+          "--energy", arguments->energy,
+          "conserve: a material that reflects more than it receives is refused; allow-gain: it is rendered, and said; "
+          "unchecked: not looked at")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"conserve", "allow-gain", "unchecked"}));
   command->add_option("--exposure", arguments->exposure, "Factor before the PNG's 8 bits; 1: radiance 1 is white")
       ->capture_default_str()
       ->check(CLI::Range(1e-12, 1e12));

@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "cli/commands.h"
+#include "cli/progress.h"
 #include "cli/subject.h"
 #include "energy/energy_file.h"
 #include "energy/energy_tables.h"
 #include "energy/limits_json.h"
-#include "cli/progress.h"
 
 namespace gonio::cli {
 namespace {
@@ -65,7 +66,8 @@ void print_limits(const Limits& limits, const Subject& subject, const std::vecto
                spectral ? fmt::format(" {:>14g}", row.wavelength_nm) : "",
                row.coherent > 0 ? fmt::format("  + coherent {:.6f}", row.coherent) : "");
   if (!limits.bounded)
-    fmt::print("not conserving beyond {:g} deg: this lobe is unbounded at grazing; the limits hold up to there\n", limits.theta_max_deg);
+    fmt::print("not conserving beyond {:g} deg: this lobe is unbounded at grazing; the limits hold up to there\n",
+               limits.theta_max_deg);
   const bool sum = subject.model.sum.is_sum();
   const std::string kd = linear_values(subject, limits, "kd"), ks = linear_values(subject, limits, "ks");
   fmt::print("ks_max = {:.6f} ({}kd = 0)\nkd_max = {:.6f} ({})\n", limits.ks_max, sum ? "all ks times this; " : "",
@@ -109,8 +111,10 @@ void run_limits(const TableArguments& arguments, Common& common) {
   for (const double theta : asked)
     for (const LimitRow& row : limits.rows)
       if (row.theta_deg == theta) rows.push_back(row);
-  if (common.json) std::cout << limits_json(limits, subject, rows).dump(2) << '\n';
-  else print_limits(limits, subject, rows);
+  if (common.json)
+    std::cout << limits_json(limits, subject, rows).dump(2) << '\n';
+  else
+    print_limits(limits, subject, rows);
   common.exit_code = limits.holds() ? 0 : 1;
 }
 
@@ -129,14 +133,18 @@ std::vector<FamilyLobe> families_of(const ModelArguments& model) {
 
 void run_table(const TableArguments& arguments) {
   if (arguments.model.model.empty() || arguments.out.empty())
-    throw input_error("gonio table: MODEL and --out are needed; expected `gonio table MODEL --out T.exr`, `gonio table all --out FOLDER`, `gonio table lookup MODEL` or `gonio table limits MODEL`");
+    throw input_error(
+        "gonio table: MODEL and --out are needed; expected `gonio table MODEL --out T.exr`, `gonio table all --out "
+        "FOLDER`, `gonio table lookup MODEL` or `gonio table limits MODEL`");
   Progress progress("table");
   const auto show = [&](double done) { progress.show(done); };
   if (arguments.model.model == "all") {
-    make_energy_tables(arguments.out, [](const std::string& line) { fmt::print(stderr, "{}\n", line); }, show);
+    make_energy_tables(
+        arguments.out, [](const std::string& line) { fmt::print(stderr, "{}\n", line); }, show);
     return;
   }
   const FamilyLobe lobe = families_of(arguments.model).front();
+  WholeFile refused_before_the_work(arguments.out);
   write_energy_table(EnergyTable(*lobe.family, show), arguments.out);
   if (lobe.factor != 1)
     fmt::print(stderr, "{}: the table of {}, of which it is a multiple\n", arguments.model.model, lobe.family->name);
@@ -146,16 +154,19 @@ void run_table(const TableArguments& arguments) {
 
 void add_table(CLI::App& app, Common& common) {
   auto* command = app.add_subcommand("table", "Directional reflectance tables E(theta; m) and the limits of kd and ks");
-  command->footer("Example: gonio table torrance-sparrow --set shadowing=v-cavity --out E.exr\n"
-                  "         gonio table all --out out/tables\n"
-                  "         gonio table limits pseudo-realistic --set m=0.3 --material Au --at 550");
+  command->footer(
+      "Example: gonio table torrance-sparrow --set shadowing=v-cavity --out E.exr\n"
+      "         gonio table all --out out/tables\n"
+      "         gonio table limits pseudo-realistic --set m=0.3 --material Au --at 550");
   add_common(*command, common);
   auto arguments = std::make_shared<TableArguments>();
-  command->add_option("model", arguments->model.model, "Model whose lobe is tabulated over the incidence and its width, for every material; or `all`");
+  command->add_option("model", arguments->model.model,
+                      "Model whose lobe is tabulated over the incidence and its width, for every material; or `all`");
   command->add_option("--set", arguments->model.settings, "shadowing=NAME")->allow_extra_args(false);
   command->add_option("-o,--out", arguments->out, "OpenEXR file to write (a CSV of E beside it); of `all` a folder");
 
-  auto* limits = command->add_subcommand("limits", "ks_max, kd_max and E of a material or a fit; exit 1 when (43) is broken");
+  auto* limits =
+      command->add_subcommand("limits", "ks_max, kd_max and E of a material or a fit; exit 1 when (43) is broken");
   limits->footer(
       "Example: gonio table limits torrance-sparrow --set m=0.2 --material Au --ks 0.9 --angles 0,45,80\n"
       "(43): kd rho_d + ks E <= 1 at every angle and wavelength. E is of ks = 1, ks_max the largest ks at kd = 0, "

@@ -62,8 +62,8 @@ void run(const CheckArguments& a, Common& common) {
   fmt::print("{}: {} surfaces of the database ({} more are integrated instead)\n", table.family().name, held.size(),
              all.size() - held.size());
   for (const auto& [what, at] : {std::pair("denser grid", check.dense), std::pair("random", check.random)})
-    fmt::print("  {:<12} {:.2e} at {:.4f} degrees, alpha {:.4g}, {} at {:g} nm\n", what, at.error, at.theta_deg, at.alpha,
-               held[at.surface].id, held[at.surface].wavelength_nm);
+    fmt::print("  {:<12} {:.2e} at {:.4f} degrees, alpha {:.4g}, {} at {:g} nm\n", what, at.error, at.theta_deg,
+               at.alpha, held[at.surface].id, held[at.surface].wavelength_nm);
   fmt::print("  margin {:+.1e}; bound {:g}: {}\n", check.margin(), EnergyTable::kError,
              common.exit_code == 0 ? "holds" : "does not hold");
 }
@@ -71,8 +71,11 @@ void run(const CheckArguments& a, Common& common) {
 }  // namespace
 
 void add_table_check(CLI::App& table, Common& common) {
-  auto* command = table.add_subcommand("check", "What a table loses, on a denser grid and at random places, on every solid and liquid");
-  command->footer("Example: gonio table check out/tables/ggx-v-cavity.exr --random 2000 --denser 2\nExit 1: the bound does not hold.");
+  auto* command = table.add_subcommand(
+      "check", "What a table loses, on a denser grid and at random places, on every solid and liquid");
+  command->footer(
+      "Example: gonio table check out/tables/ggx-v-cavity.exr --random 2000 --denser 2\nExit 1: the bound does not "
+      "hold.");
   add_common(*command, common);
   auto a = std::make_shared<CheckArguments>();
   command->add_option("table", a->file, "A table (.exr)")->required();

@@ -80,7 +80,8 @@ double node_error(const Lobe<double>& lobe, const Interface<double>& surface, co
   }();
   double worst = 0;
   for (const auto& [cos_d, lagrange] : tests)
-    worst = std::max(worst, std::abs(facet_reflectance<double>(lobe, cos_d, surface) - sum_of_products(lagrange, at_nodes)));
+    worst = std::max(worst,
+                     std::abs(facet_reflectance<double>(lobe, cos_d, surface) - sum_of_products(lagrange, at_nodes)));
   return worst;
 }
 

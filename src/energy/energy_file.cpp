@@ -43,7 +43,8 @@ double white(const Cell& cell) {
 struct Grids {
   std::vector<double> theta_deg, alpha;
   explicit Grids(const EnergyGrid& grid) {
-    for (std::size_t c = 0; c < grid.columns; ++c) theta_deg.push_back(std::acos(grid.cos_theta(c)) * 180 / kPi<double>);
+    for (std::size_t c = 0; c < grid.columns; ++c)
+      theta_deg.push_back(std::acos(grid.cos_theta(c)) * 180 / kPi<double>);
     for (std::size_t r = 0; r < grid.rows; ++r) alpha.push_back(grid.alpha(r));
   }
 };
@@ -53,7 +54,8 @@ std::string csv_of(const EnergyTable& table, const Grids& grids) {
   for (std::size_t r = 0; r < grids.alpha.size(); ++r)
     for (std::size_t c = 0; c < grids.theta_deg.size(); ++c) {
       const Cell& cell = table.cell(r, c);
-      text += fmt::format("{:.10g},{:.10g},{:.8g},{:.2g}\n", grids.theta_deg[c], grids.alpha[r], white(cell), cell.error);
+      text +=
+          fmt::format("{:.10g},{:.10g},{:.8g},{:.2g}\n", grids.theta_deg[c], grids.alpha[r], white(cell), cell.error);
     }
   return text;
 }
@@ -105,7 +107,9 @@ void write_energy_table(const EnergyTable& table, const fs::path& exr) {
   for (const Cell& cell : table.cells()) e.push_back(static_cast<float>(white(cell)));
   Imf::Header header(static_cast<int>(columns), static_cast<int>(rows));
   header.insert("gonio_energy", Imf::IntAttribute(kVersion));
-  const auto say = [&](const char* name, const std::string& value) { header.insert(name, Imf::StringAttribute(value)); };
+  const auto say = [&](const char* name, const std::string& value) {
+    header.insert(name, Imf::StringAttribute(value));
+  };
   say("family", std::string(table.family().name));
   say("described", std::string(table.family().described));
   say("quantity", "E(theta; alpha) = sum of weight_i R(cos_d_i), ks = 1 (dimensionless); channel E: R = 1");
@@ -153,9 +157,10 @@ void check_is_current(const EnergyTable& table) {
       const Cell& held = table.cell(row, column);
       for (std::size_t i = 0; i < kCosNodes; ++i)
         if (!(std::abs(anew.weight[i] - held.weight[i]) <= 1e-5F))
-          throw input_error("{}: a stale table, at alpha {:.4g} and {:.4g} degrees weight {} is {}; expected {} (make it anew)",
-                            table.family().name, grid.alpha(row), std::acos(grid.cos_theta(column)) * 180 / kPi<double>, i,
-                            held.weight[i], anew.weight[i]);
+          throw input_error(
+              "{}: a stale table, at alpha {:.4g} and {:.4g} degrees weight {} is {}; expected {} (make it anew)",
+              table.family().name, grid.alpha(row), std::acos(grid.cos_theta(column)) * 180 / kPi<double>, i,
+              held.weight[i], anew.weight[i]);
     }
 }
 

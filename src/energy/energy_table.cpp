@@ -26,8 +26,7 @@ auto interpolated(const CubicTaps<T>& rows, const CubicTaps<T>& columns, Value v
 }  // namespace
 
 EnergyTable::Cell EnergyTable::made(const LobeFamily& family, double cos_theta, double alpha) {
-  const LobeMeasure measure =
-      lobe_measure(family.lobe(alpha), std::acos(cos_theta) * 180 / kPi<double>, kTolerance);
+  const LobeMeasure measure = lobe_measure(family.lobe(alpha), std::acos(cos_theta) * 180 / kPi<double>, kTolerance);
   const NodeValues weights = node_weights(measure);
   Cell cell{{}, static_cast<float>(measure.error)};
   for (std::size_t i = 0; i < kCosNodes; ++i) cell.weight[i] = static_cast<float>(weights[i]);
@@ -106,7 +105,8 @@ void SurfaceEnergyTable::reflectances(std::span<const float> cos_theta, std::spa
       const float* at = &e_[row.first * grid_.columns + column.first];
       float sum = 0;
       for (std::size_t r = 0; r < kTaps; ++r, at += grid_.columns) {
-        const float along = column.weight[0] * at[0] + column.weight[1] * at[1] + column.weight[2] * at[2] + column.weight[3] * at[3];
+        const float along =
+            column.weight[0] * at[0] + column.weight[1] * at[1] + column.weight[2] * at[2] + column.weight[3] * at[3];
         sum += row.weight[r] * along;
       }
       e[from + i] = sum;

@@ -52,7 +52,9 @@ void make_energy_tables(const fs::path& folder, const std::function<void(const s
       continue;
     }
     const EnergyTable table(family, [&](double share) {
-      if (done) done((static_cast<double>(&family - lobe_families().data()) + share) / static_cast<double>(lobe_families().size()));
+      if (done)
+        done((static_cast<double>(&family - lobe_families().data()) + share) /
+             static_cast<double>(lobe_families().size()));
     });
     write_energy_table(table, file);
     says(fmt::format("{}: {} KiB", file.string(), table.bytes() / 1024));

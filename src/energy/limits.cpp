@@ -121,7 +121,8 @@ Limits conservation_limits(const SampledLobes& lobes, const SurfaceSamples& samp
   limits.range_lo_nm = samples.wavelength_nm.front();
   limits.range_hi_nm = samples.wavelength_nm.back();
   std::erase_if(angles_deg, [&](double theta) { return theta > limits.theta_max_deg; });
-  if (!limits.bounded) angles_deg.push_back(limits.theta_max_deg);
+  constexpr double kGrazing_deg = 89.9999;  // E of bounded lobes is level from there on
+  angles_deg.push_back(limits.bounded ? kGrazing_deg : limits.theta_max_deg);
   std::sort(angles_deg.begin(), angles_deg.end());
   angles_deg.erase(std::unique(angles_deg.begin(), angles_deg.end()), angles_deg.end());
 

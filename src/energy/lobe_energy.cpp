@@ -11,17 +11,18 @@ namespace gonio {
 namespace {
 
 constexpr double kTolerance = 1e-6;
-constexpr std::size_t kAzimuths = 7;  // 0, 15, … 90 degrees
+constexpr std::size_t kAzimuths = 10;  // 0, 10, … 90 degrees
 /// Largest error of the cubics between columns where E is integrated there, measured (tests/energy/lobe_energy_test.cpp).
 constexpr double kBetweenColumns = 2e-4;
-constexpr double kLastAngle_deg = 89.99;
+constexpr double kLastAngle_deg = 89.9999;
 
 double cosine_of_last(const Lobe<double>& lobe) {
   return cos_deg(unbounded_at_grazing(lobe) ? LobeEnergy::kUnboundedTo_deg : kLastAngle_deg);
 }
 
 /// E at each wavelength for one incidence.
-std::vector<double> integrated(const Lobe<double>& lobe, const SpectralSurface& surface, double cos_theta, double phi_deg) {
+std::vector<double> integrated(const Lobe<double>& lobe, const SpectralSurface& surface, double cos_theta,
+                               double phi_deg) {
   if (plain_facets(lobe) && !looks_at_the_grain(lobe)) {
     const LobeMeasure measure = lobe_measure(lobe, std::acos(cos_theta) * 180 / kPi<double>, kTolerance);
     std::vector<double> e(surface.size(), 0);
@@ -32,7 +33,8 @@ std::vector<double> integrated(const Lobe<double>& lobe, const SpectralSurface& 
   }
   std::vector<double> e;
   const double theta_deg = std::acos(std::max(cos_theta, cosine_of_last(lobe))) * 180 / kPi<double>;
-  for (const Estimate& one : directional_reflectance(lobe, theta_deg, surface, kTolerance, phi_deg)) e.push_back(one.value);
+  for (const Estimate& one : directional_reflectance(lobe, theta_deg, surface, kTolerance, phi_deg))
+    e.push_back(one.value);
   return e;
 }
 
@@ -119,7 +121,7 @@ void LobeEnergy::integrate(const Lobe<double>& lobe, const SpectralSurface& surf
   const std::size_t azimuths = looks_at_the_grain(lobe) ? kAzimuths : 1;
   std::vector<std::vector<double>> e(azimuths * grid.columns);
   tbb::parallel_for(std::size_t{0}, e.size(), [&](std::size_t at) {
-    const double phi_deg = 15.0 * static_cast<double>(at / grid.columns);
+    const double phi_deg = 90.0 / (kAzimuths - 1) * static_cast<double>(at / grid.columns);
     e[at] = integrated(lobe, surface, grid.cos_theta(at % grid.columns), phi_deg);
   });
   for (std::size_t w = 0; w < surface.size(); ++w) {

@@ -20,7 +20,8 @@ Lobe<double> ggx_lobe(double alpha) {
 }
 Lobe<double> pseudo_realistic_lobe(double alpha) { return PseudoRealistic<double>{alpha / std::sqrt(2)}; }
 Lobe<double> gaussian_angle_lobe(double alpha) {
-  return Blinn<double>{1 / alpha, BlinnDensity::gaussian_angle, BlinnScale::normalised, gaussian_angle_integral(1 / alpha)};
+  return Blinn<double>{1 / alpha, BlinnDensity::gaussian_angle, BlinnScale::normalised,
+                       gaussian_angle_integral(1 / alpha)};
 }
 Lobe<double> cosine_power_lobe(double alpha) {
   return Blinn<double>{2 / square(alpha), BlinnDensity::cosine_power, BlinnScale::normalised};
@@ -33,30 +34,43 @@ struct Found {
 
 std::string_view beckmann_name(Shadowing shadowing) {
   switch (shadowing) {
-    case Shadowing::v_cavity: return "beckmann-v-cavity";
-    case Shadowing::smith_separable: return "beckmann-smith-separable";
-    case Shadowing::smith_correlated: return "beckmann-smith-correlated";
-    case Shadowing::smith_1967: return "beckmann-smith-1967";
-    default: return {};
+    case Shadowing::v_cavity:
+      return "beckmann-v-cavity";
+    case Shadowing::smith_separable:
+      return "beckmann-smith-separable";
+    case Shadowing::smith_correlated:
+      return "beckmann-smith-correlated";
+    case Shadowing::smith_1967:
+      return "beckmann-smith-1967";
+    default:
+      return {};
   }
 }
 std::string_view ggx_name(Shadowing shadowing) {
   switch (shadowing) {
-    case Shadowing::v_cavity: return "ggx-v-cavity";
-    case Shadowing::smith_separable: return "ggx-smith-separable";
-    case Shadowing::smith_correlated: return "ggx-smith-correlated";
-    default: return {};
+    case Shadowing::v_cavity:
+      return "ggx-v-cavity";
+    case Shadowing::smith_separable:
+      return "ggx-smith-separable";
+    case Shadowing::smith_correlated:
+      return "ggx-smith-correlated";
+    default:
+      return {};
   }
 }
 
-std::vector<Found> found(const PseudoRealistic<double>& one) { return {{"pseudo-realistic", std::sqrt(2) * one.slope_rms}}; }
+std::vector<Found> found(const PseudoRealistic<double>& one) {
+  return {{"pseudo-realistic", std::sqrt(2) * one.slope_rms}};
+}
 std::vector<Found> found(const TorranceSparrow<double>& one) {
   switch (one.form) {  // the others have another D or G
     case FacetForm::exact:
     case FacetForm::schlick_f:
     case FacetForm::erfcx:
-    case FacetForm::erfc: return {{beckmann_name(one.shadowing), one.alpha}};
-    default: return {};
+    case FacetForm::erfc:
+      return {{beckmann_name(one.shadowing), one.alpha}};
+    default:
+      return {};
   }
 }
 std::vector<Found> found(const AnisotropicBeckmann<double>& one) {
@@ -97,17 +111,19 @@ const std::vector<LobeFamily>& lobe_families() {
   static const std::vector<LobeFamily> all{
       {"pseudo-realistic", "Maillot 1996 (31), V-cavities", kWidestAlpha, pseudo_realistic_lobe},
       {"beckmann-v-cavity", "Gaussian slopes, V-cavities", kWidestAlpha, beckmann_lobe<Shadowing::v_cavity>},
-      {"beckmann-smith-correlated", "Gaussian slopes, Smith's masking and shadowing, correlated in height", kWidestAlpha,
-       beckmann_lobe<Shadowing::smith_correlated>},
+      {"beckmann-smith-correlated", "Gaussian slopes, Smith's masking and shadowing, correlated in height",
+       kWidestAlpha, beckmann_lobe<Shadowing::smith_correlated>},
       {"beckmann-smith-separable", "Gaussian slopes, Smith's masking times shadowing", kWidestAlpha,
        beckmann_lobe<Shadowing::smith_separable>},
-      {"beckmann-smith-1967", "Gaussian slopes, Smith's function of 1967", kWidestAlpha, beckmann_lobe<Shadowing::smith_1967>},
+      {"beckmann-smith-1967", "Gaussian slopes, Smith's function of 1967", kWidestAlpha,
+       beckmann_lobe<Shadowing::smith_1967>},
       {"ggx-v-cavity", "GGX normals, V-cavities", kWidestAlpha, ggx_lobe<Shadowing::v_cavity>},
       {"ggx-smith-correlated", "GGX normals, Smith, correlated in height", kWidestAlpha,
        ggx_lobe<Shadowing::smith_correlated>},
       {"ggx-smith-separable", "GGX normals, Smith's masking times shadowing", kWidestAlpha,
        ggx_lobe<Shadowing::smith_separable>},
-      {"gaussian-angle", "Gaussian of the facets' angle (Torrance & Sparrow 1967), V-cavities", kWidestAlpha, gaussian_angle_lobe},
+      {"gaussian-angle", "Gaussian of the facets' angle (Torrance & Sparrow 1967), V-cavities", kWidestAlpha,
+       gaussian_angle_lobe},
       {"cosine-power", "cosine power of the facets' angle (Blinn 1977), V-cavities", std::sqrt(2), cosine_power_lobe},
   };
   return all;

@@ -11,7 +11,7 @@ namespace gonio {
 struct LobeFamily {
   std::string_view name;  ///< "ggx-v-cavity"
   std::string_view described;
-  double widest;          ///< alpha up to which it is tabulated (m = 2, or what the model's own box holds)
+  double widest;  ///< alpha up to which it is tabulated (m = 2, or what the model's own box holds)
   Lobe<double> (*lobe)(double alpha);
 };
 

@@ -14,7 +14,8 @@ class ReflectanceCurve {
   /// One value a column, from grazing to the normal.
   explicit ReflectanceCurve(std::vector<double> e) : e_(std::move(e)), grid_{.columns = e_.size()} {}
   /// Of a function of cos θ, asked at the columns.
-  static ReflectanceCurve of(const std::function<double(double cos_theta)>& e, std::size_t columns = EnergyGrid{}.columns);
+  static ReflectanceCurve of(const std::function<double(double cos_theta)>& e,
+                             std::size_t columns = EnergyGrid{}.columns);
 
   bool empty() const { return e_.empty(); }
   std::span<const double> values() const { return e_; }

@@ -48,10 +48,13 @@ Eigen::VectorXd moments(const LobeMeasure& measure) {
 class Judge {
  public:
   Judge(const EnergyTable& table, std::span<const Interface<double>> surfaces)
-      : table_(table), truth_(coefficients(table, surfaces)), nodes_(static_cast<Eigen::Index>(surfaces.size()), kCosNodes) {
+      : table_(table),
+        truth_(coefficients(table, surfaces)),
+        nodes_(static_cast<Eigen::Index>(surfaces.size()), kCosNodes) {
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       const NodeValues r = reflectance_at_nodes(table.family().lobe(0.5), surfaces[s]);
-      for (std::size_t i = 0; i < kCosNodes; ++i) nodes_(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(i)) = r[i];
+      for (std::size_t i = 0; i < kCosNodes; ++i)
+        nodes_(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(i)) = r[i];
     }
   }
 
@@ -59,7 +62,8 @@ class Judge {
     const double theta_deg = std::acos(std::max(cos_theta, 1e-6)) * 180 / kPi<double>;
     const NodeValues weights = table_.weights(cos_theta, alpha);
     const Eigen::Map<const Eigen::VectorXd> w(weights.data(), kCosNodes);
-    const Eigen::VectorXd difference = nodes_ * w - truth_ * moments(lobe_measure(table_.family().lobe(alpha), theta_deg));
+    const Eigen::VectorXd difference =
+        nodes_ * w - truth_ * moments(lobe_measure(table_.family().lobe(alpha), theta_deg));
     Eigen::Index worst = 0;
     const double error = difference.cwiseAbs().maxCoeff(&worst);
     return {theta_deg, alpha, error, static_cast<std::size_t>(worst)};
@@ -87,7 +91,8 @@ std::vector<Place> random_places(const EnergyGrid& grid, std::size_t count) {
   std::uniform_real_distribution<double> uniform;
   std::vector<Place> places;
   for (std::size_t i = 0; i < count; ++i) {
-    const double u = uniform(random), alpha = kNarrowestAlpha * std::pow(grid.widest / kNarrowestAlpha, uniform(random));
+    const double u = uniform(random),
+                 alpha = kNarrowestAlpha * std::pow(grid.widest / kNarrowestAlpha, uniform(random));
     places.push_back({i % 3 == 0 ? std::cos(u * kPi<double> / 2) : i % 3 == 1 ? u : std::pow(10, -5 * u), alpha});
   }
   return places;
@@ -107,11 +112,13 @@ TableError worst_of(const Judge& judge, const std::vector<Place>& places, const 
 TableCheck check_table(const EnergyTable& table, std::span<const Interface<double>> surfaces, std::size_t times_denser,
                        std::size_t random_count, const std::function<void(double)>& done) {
   const Judge judge(table, surfaces);
-  const std::vector<Place> dense = dense_places(table.grid(), times_denser), random = random_places(table.grid(), random_count);
+  const std::vector<Place> dense = dense_places(table.grid(), times_denser),
+                           random = random_places(table.grid(), random_count);
   std::atomic<std::size_t> count{0};
   const std::size_t all = dense.size() + random.size();
   const auto one_done = [&] {
-    if (const std::size_t now = ++count; done && now % 1000 == 0) done(static_cast<double>(now) / static_cast<double>(all));
+    if (const std::size_t now = ++count; done && now % 1000 == 0)
+      done(static_cast<double>(now) / static_cast<double>(all));
   };
   return {worst_of(judge, dense, one_done), worst_of(judge, random, one_done)};
 }

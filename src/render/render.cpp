@@ -30,6 +30,48 @@ std::vector<std::vector<double>> values_of(const SceneMaterial& material) {
   return material.by_wavelength;
 }
 
+/// E of every material's lobes; empty where a lobe has none (its integral is infinite).
+using Energies = std::vector<std::optional<MaterialEnergy>>;
+
+std::string refusal(const SceneMaterial& material, const EnergyBalance& balance) {
+  return fmt::format("material {}: {}", material.name, balance.described());
+}
+
+std::optional<MaterialEnergy> energy_of(const SceneMaterial& material, const SurfaceSamples& samples, bool may_gain,
+                                        std::vector<std::string>& gains) {
+  SampledLobes lobes;
+  for (const std::vector<double>& values : values_of(material)) lobes.push_back(make_brdfs(material.model, values));
+  std::optional<MaterialEnergy> energy;
+  std::string wrong;
+  try {
+    energy.emplace(lobes.front(), samples.surface, material.compensation);
+    if (const EnergyBalance balance = energy_balance(*energy, lobes, samples); !balance.holds())
+      wrong = refusal(material, balance);
+  } catch (const InputError& error) {
+    if (material.compensation != CompensationKind::none)
+      throw input_error("material {}: {}", material.name, error.what());
+    wrong = fmt::format("material {}: {}", material.name, error.what());
+  }
+  if (wrong.empty()) return energy;
+  if (!may_gain) throw input_error("{}; expected at most 1, or energy: allow-gain", wrong);
+  gains.push_back(wrong);
+  return energy;
+}
+
+Energies energies_of(const Scene& scene, const RenderSettings& settings, std::vector<std::string>& gains) {
+  Energies all;
+  for (const SceneMaterial& material : scene.materials) {
+    if (settings.energy == EnergyRule::unchecked && material.compensation == CompensationKind::none) {
+      all.emplace_back();
+      continue;
+    }
+    SurfaceSamples samples{scene.wavelengths_nm, {interfaces(material, scene.wavelengths_nm), {}}};
+    for (const double nm : scene.wavelengths_nm) samples.surface.wavelength_um.push_back(nm * 1e-3);
+    all.push_back(energy_of(material, samples, material.may_gain || settings.energy != EnergyRule::conserve, gains));
+  }
+  return all;
+}
+
 template <std::size_t N>
 SpectralLanes<N> lanes_of(const Emission& emission, std::span<const double> wavelengths_nm) {
   std::vector<double> values;
@@ -38,7 +80,7 @@ SpectralLanes<N> lanes_of(const Emission& emission, std::span<const double> wave
 }
 
 template <std::size_t N>
-PathTracer<N> make_tracer(const Scene& scene, const RenderSettings& settings) {
+PathTracer<N> make_tracer(const Scene& scene, const Energies& energies, const RenderSettings& settings) {
   const std::vector<double>& wavelengths_nm = scene.wavelengths_nm;
   std::vector<Shape> shapes;
   std::vector<SpectralLanes<N>> emitted;
@@ -57,8 +99,11 @@ PathTracer<N> make_tracer(const Scene& scene, const RenderSettings& settings) {
   }
   if (scene.room) materials.push_back(scene.room->material);
   std::vector<SurfaceShader<N>> shaders;
-  for (const SceneMaterial& material : scene.materials)
-    shaders.emplace_back(material.model, values_of(material), interfaces(material, wavelengths_nm), wavelengths_nm);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const SceneMaterial& material = scene.materials[m];
+    shaders.emplace_back(material.model, values_of(material), interfaces(material, wavelengths_nm), wavelengths_nm,
+                         energies[m] ? &*energies[m] : nullptr);
+  }
   const Emission& surroundings = scene.room ? scene.room->emission : scene.environment;
   return {std::move(shapes),
           scene.room,
@@ -137,8 +182,8 @@ void render_pixel(const PathTracer<N>& tracer, const Scene& scene, const Eye& ey
 }
 
 template <std::size_t N>
-void render_rows(const Scene& scene, const RenderSettings& settings, RenderResult& result) {
-  const PathTracer<N> tracer = make_tracer<N>(scene, settings);
+void render_rows(const Scene& scene, const Energies& energies, const RenderSettings& settings, RenderResult& result) {
+  const PathTracer<N> tracer = make_tracer<N>(scene, energies, settings);
   const Eye eye(scene.camera);
   const auto width = static_cast<std::size_t>(scene.camera.width),
              height = static_cast<std::size_t>(scene.camera.height);
@@ -159,10 +204,10 @@ void render_rows(const Scene& scene, const RenderSettings& settings, RenderResul
 
 /// The fewest batches that hold the wavelengths.
 template <std::size_t N>
-void dispatch(const Scene& scene, const RenderSettings& settings, RenderResult& result) {
+void dispatch(const Scene& scene, const Energies& energies, const RenderSettings& settings, RenderResult& result) {
   if constexpr (2 * N * kLane <= kMaxWavelengths)
-    if (scene.wavelengths_nm.size() > N * kLane) return dispatch<2 * N>(scene, settings, result);
-  render_rows<N>(scene, settings, result);
+    if (scene.wavelengths_nm.size() > N * kLane) return dispatch<2 * N>(scene, energies, settings, result);
+  render_rows<N>(scene, energies, settings, result);
 }
 
 }  // namespace
@@ -172,9 +217,10 @@ RenderResult render(const Scene& scene, const RenderSettings& settings) {
   if (settings.spp < 1 || settings.spp > 100'000'000)
     throw input_error("spp is {}; expected 1 to 100000000", settings.spp);
   if (settings.max_depth < 0) throw input_error("max_depth is {}; expected 0 or more", settings.max_depth);
-  RenderResult result{{scene.camera.width, scene.camera.height, scene.wavelengths_nm}, {}, 0};
+  RenderResult result{{scene.camera.width, scene.camera.height, scene.wavelengths_nm}, {}, 0, {}};
   if (settings.variance) result.variance.resize(result.image.radiance.size());
-  dispatch<1>(scene, settings, result);
+  const Energies energies = energies_of(scene, settings, result.gains);
+  dispatch<1>(scene, energies, settings, result);
   return result;
 }
 

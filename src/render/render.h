@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "image/spectral_image.h"
@@ -16,12 +17,20 @@ enum class Strategy {
   brdf    ///< BRDF sampling only
 };
 
+/// What becomes of a material that breaks (43), kd·ρd + ks·E <= 1.
+enum class EnergyRule {
+  conserve,    ///< refused, with the number by which it fails, unless it may_gain itself
+  allow_gain,  ///< rendered, and said in RenderResult::gains
+  unchecked  ///< rendered without a look at E, which no table or quadrature gives then: lobes are chosen by R0 (quick previews)
+};
+
 struct RenderSettings {
   int spp = 64;       ///< paths a pixel
   int max_depth = 8;  ///< reflections a path; light that needs more is missing
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0 = all; the image does not depend on it
   Strategy strategy = Strategy::mis;
+  EnergyRule energy = EnergyRule::conserve;
   bool variance = true;                         ///< also estimate the variance (as much memory again)
   std::function<void(double done)> progress{};  ///< called from any thread with the share done, 0 to 1
 };
@@ -33,10 +42,11 @@ struct RenderResult {
   std::vector<double> variance;
   /// Paths whose radiance overflowed float; they count as black. 0 in any sensible scene.
   std::uint64_t dropped_paths = 0;
+  std::vector<std::string> gains{};  ///< materials that break (43), and by how much
 };
 
 /// Spectral Monte Carlo path tracing. Same scene, seed and settings: same bits, whatever the number of threads.
-/// InputError for a scene that cannot be rendered (check(), a material outside its range).
+/// E of every lobe is taken from the tables, or integrated, before the first path. InputError for a scene that cannot be rendered (check(), a material outside its range, or one that breaks (43)).
 RenderResult render(const Scene& scene, const RenderSettings& settings);
 
 /// `mis`, `light`, `brdf`; InputError for another name.

@@ -9,6 +9,7 @@
 #include "brdf/lanes.h"
 #include "brdf/lobe_sum.h"
 #include "brdf/sum_sampling.h"
+#include "energy/material_energy.h"
 #include "render/random.h"
 #include "render/spectral_lanes.h"
 
@@ -28,9 +29,11 @@ class SurfaceShader {
     bool delta;
   };
 
-  /// `values`: one list for all wavelengths, or one for each (kd and ks differ); `surfaces`: the interface at each.
+  /// `values`: one list for all wavelengths, or one for each (kd and ks differ); `surfaces`: the interface at each. `energy`: E of the lobes, for the
+  /// choice between them, and compensations; without it the choice goes by R0.
   SurfaceShader(const LobeSum& model, std::span<const std::vector<double>> values,
-                std::span<const Interface<double>> surfaces, std::span<const double> wavelengths_nm) {
+                std::span<const Interface<double>> surfaces, std::span<const double> wavelengths_nm,
+                const MaterialEnergy* energy = nullptr) {
     std::vector<double> n, k, r0;
     for (const Interface<double>& surface : surfaces) {
       n.push_back(surface.n);
@@ -53,12 +56,13 @@ class SurfaceShader {
     diffuse_ = lobes[0].diffuse_times_r0() ? Lanes::from(r0) : Lanes(1.0F);
     diffuse_ *= static_cast<float>(lobes[0].kd / kPi<double>);
     set_spectra(model, values, means);
-    mixture_ = SumMixture(lobes, mean_r0_, wavelengths_um_.back());
+    mixture_ = SumMixture(lobes, wavelengths_um_.back());
+    set_energy(energy);
   }
   /// Of values that serve all wavelengths.
   SurfaceShader(const LobeSum& model, const std::vector<double>& values, std::span<const Interface<double>> surfaces,
-                std::span<const double> wavelengths_nm)
-      : SurfaceShader(model, std::span(&values, 1), surfaces, wavelengths_nm) {}
+                std::span<const double> wavelengths_nm, const MaterialEnergy* energy = nullptr)
+      : SurfaceShader(model, std::span(&values, 1), surfaces, wavelengths_nm, energy) {}
 
   /// f·factor, without the delta; 0 below the horizon.
   Lanes evaluate(const LocalDirection& i, const LocalDirection& o, double factor) const {
@@ -68,14 +72,17 @@ class SurfaceShader {
     if (!has_lobe_) return f;
     const Directions<double> given = reduce(i.x, i.y, i.z, o.x, o.y, o.z);
     for (const ShadedLobe& lobe : lobes_)
-      if (lobe.is_lit()) add_lobe(f, lobe, lobe.brdf.retro ? turned_back(given) : given, factor);
+      if (lobe.is_lit()) {
+        add_lobe(f, lobe, lobe.brdf.retro ? turned_back(given) : given, factor);
+        if (lobe.compensation) add_compensation(f, lobe, i, o, factor);
+      }
     return f;
   }
 
   /// Density of sample()'s directions that are no delta, per steradian.
   double pdf(const LocalDirection& i, const LocalDirection& o) const {
     if (!(i.z > 0) || !(o.z > 0)) return 0;
-    return (1 - delta_shares(o.z).sum) * mixture_.pdf(i, o);
+    return (1 - delta_shares(o.z).sum) * mixture_.pdf(i, o, shares_towards(o));
   }
 
   /// A mixture of the coherent deltas, a cosine lobe and the lobes' own samplers. Empty when the drawn direction lies
@@ -84,7 +91,7 @@ class SurfaceShader {
     const DeltaShares shares = delta_shares(o.z);
     const double choice = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
     if (choice < shares.sum) return delta_sample(o, shares, choice);
-    const auto drawn = mixture_.sample(o, (choice - shares.sum) / (1 - shares.sum), u1, u2);
+    const auto drawn = mixture_.sample(o, shares_towards(o), (choice - shares.sum) / (1 - shares.sum), u1, u2);
     const double pdf_per_sr = (1 - shares.sum) * drawn.pdf_per_sr;
     if (!(pdf_per_sr > 0)) return {};
     return Sample{drawn.direction, evaluate(drawn.direction, o, drawn.direction.z / pdf_per_sr), pdf_per_sr, false};
@@ -93,12 +100,17 @@ class SurfaceShader {
  private:
   /// A coherent share below this is lost in the rounding of float radiances.
   static constexpr double kLeastCoherent = 1e-9;
+  static constexpr double kLeastEnergy = 1e-6;  ///< of a lobe, so that what its curve rounds to nothing is sampled
 
   /// A lobe of the sum in both number types, kd and ks the means over the wavelengths.
   struct ShadedLobe {
     Brdf<double> brdf;
     Brdf<FloatLanes> lanes;
     Lanes ks_over_mean{1.0F};  ///< 1 where one ks serves all
+    ReflectanceCurve e{};      ///< mean over wavelengths and azimuths, ks = 1
+    std::optional<Compensation> compensation{};
+    Lanes compensated{0.0F};  ///< ks·C
+    double mean_colour = 0;
 
     bool is_lit() const { return !std::holds_alternative<Lambert>(brdf.lobe) && brdf.ks > 0; }
     bool may_be_delta() const { return is_lit() && has_delta(brdf.lobe); }
@@ -137,6 +149,62 @@ class SurfaceShader {
       const Lanes lanes = Lanes::from(relative);
       if (model.is_diffuse(p)) diffuse_ *= lanes;
       if (model.is_scale(p)) lobes_[model.place(p).lobe].ks_over_mean = lanes;
+    }
+  }
+
+  void set_energy(const MaterialEnergy* energy) {
+    for (std::size_t j = 0; energy && j < lobes_.size(); ++j) {
+      ShadedLobe& lobe = lobes_[j];
+      const LobeEnergy& known = energy->lobes[j];
+      for (std::size_t w = 0; w < known.wavelengths(); ++w)
+        lobe.e.add(known.at(w).around(), 1 / static_cast<double>(known.wavelengths()));
+      if (energy->compensations.empty()) continue;
+      lobe.compensation = energy->compensations[j];
+      lobe.compensated = Lanes::from(lobe.compensation->colour());
+      lobe.compensated *= lobe.ks_over_mean;
+      lobe.compensated *= static_cast<float>(lobe.brdf.ks);
+      lobe.mean_colour = mean(lobe.compensation->colour());
+    }
+    std::size_t parts = lobes_[0].brdf.kd > 0 ? 1 : 0;
+    for (const ShadedLobe& lobe : lobes_) parts += (lobe.is_lit() ? 1 : 0) + (lobe.compensation ? 1 : 0);
+    fixed_shares_ = parts <= 1 || !energy;
+    shares_ = shares_towards_anew({0, 0, 1});
+  }
+
+  /// Shares of the parts among the samples for light towards the eye o: what each reflects of it.
+  SumMixture::Shares shares_towards(const LocalDirection& o) const {
+    return fixed_shares_ ? shares_ : shares_towards_anew(o);
+  }
+  SumMixture::Shares shares_towards_anew(const LocalDirection& o) const {
+    SumMixture::Shares energies{};
+    for (std::size_t j = 0; j < lobes_.size(); ++j) {
+      const ShadedLobe& lobe = lobes_[j];
+      const PartEnergies<double> roughly = part_energies(lobe.brdf, mean_r0_);
+      energies[0] += roughly.diffuse;
+      if (!lobe.is_lit() || std::holds_alternative<Mirror>(lobe.brdf.lobe)) continue;
+      energies[j + 1] = lobe.e.empty() ? roughly.lobe : lobe.brdf.ks * std::max(lobe.e(o.z), kLeastEnergy);
+      if (lobe.compensation)
+        energies[0] += lobe.brdf.ks * lobe.mean_colour * std::max(0.0, lobe.compensation->lost(o.z));
+    }
+    return SumMixture::shares(energies);
+  }
+
+  /// ks·C·(1 - E(i))(1 - E(o))/(π(1 - Ē)).
+  void add_compensation(Lanes& f, const ShadedLobe& lobe, const LocalDirection& i, const LocalDirection& o,
+                        double factor) const {
+    const auto cos_2phi = [](const LocalDirection& v) {
+      const double across2 = v.x * v.x + v.y * v.y;
+      return across2 > 0 ? (v.x * v.x - v.y * v.y) / across2 : 1;
+    };
+    const auto shape = [&](std::size_t w) {
+      return static_cast<float>(factor * lobe.compensation->shape(w, i.z, cos_2phi(i), o.z, cos_2phi(o)));
+    };
+    if (lobe.compensation->wavelengths() == 1) {
+      f += lobe.compensated * shape(0);
+    } else {
+      std::vector<double> shapes;
+      for (std::size_t w = 0; w < lobe.compensation->wavelengths(); ++w) shapes.push_back(double(shape(w)));
+      f += lobe.compensated * Lanes::from(shapes);
     }
   }
 
@@ -207,6 +275,8 @@ class SurfaceShader {
   Lanes wavelength_um_, diffuse_;               ///< diffuse_ = kd·ρd/π
   std::vector<double> wavelengths_um_;
   SumMixture mixture_;
+  SumMixture::Shares shares_{1};
+  bool fixed_shares_ = true;
   double mean_r0_ = 1;
   bool has_lobe_ = false, has_delta_ = false;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "brdf/lobe_sum.h"
+#include "energy/compensation.h"
 #include "optics/interface.h"
 
 namespace gonio {
@@ -31,6 +32,8 @@ struct SceneMaterial {
   std::optional<Interface<double>> fixed_interface;  ///< n, k at every wavelength, in place of `material`
   /// All values at each of the scene's wavelengths, where kd or ks differ between them; else empty.
   std::vector<std::vector<double>> by_wavelength{};
+  CompensationKind compensation = CompensationKind::none;
+  bool may_gain = false;  ///< rendered although it breaks (43): reflects more than it receives at some incidence
 };
 
 struct SphereObject {

@@ -75,16 +75,28 @@ std::vector<double> read_values(YamlMap map, const LobeSum& model) {
   return values;
 }
 
+/// What holds for a model and a fit alike.
+void read_energy_choices(YamlMap& map, SceneMaterial& material) {
+  if (const std::string name = map.text_or("compensation", ""); !name.empty())
+    material.compensation = at_line(map, "compensation", [&] { return compensation_from(name); });
+  const std::string rule = map.text_or("energy", "conserve");
+  if (rule != "conserve" && rule != "allow-gain")
+    throw map.error(map.at("energy"), fmt::format("energy is {}", shown(rule)), "conserve or allow-gain");
+  material.may_gain = rule == "allow-gain";
+}
+
 /// {fit: path}, from the scene file's folder.
 SceneMaterial read_fitted(const std::string& name, YamlMap map, const std::vector<double>& wavelengths_nm) {
   const std::filesystem::path path = std::filesystem::path(map.file()).parent_path() / map.text("fit");
-  map.finish();
-  return at_line(map, "fit", [&] {
+  SceneMaterial material = at_line(map, "fit", [&] {
     std::error_code none;
     if (!std::filesystem::is_regular_file(path, none))
       throw input_error("{}: is no file; expected a fit.json", path.string());
     return scene_material(name, read_fit(path), wavelengths_nm);
   });
+  read_energy_choices(map, material);
+  map.finish();
+  return material;
 }
 
 /// shadowing, variant and retro; of a sum with the suffix of the lobe.
@@ -105,6 +117,7 @@ SceneMaterial read_material(const std::string& name, YamlMap map, const std::vec
   const std::string model_name = map.text("model"), id = map.text_or("material", "perfect");
   at_line(map, "model", [&] { material.model = lobe_sum(model_name); });
   read_choices(map, material.model);
+  read_energy_choices(map, material);
   if (id != "perfect") at_line(map, "material", [&] { material.material = SurfaceMaterial(id).id(); });
   if (map.has("set")) {
     material.values = read_values(map.map("set"), material.model);

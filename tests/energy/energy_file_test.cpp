@@ -64,17 +64,19 @@ TEST_CASE("a table of E comes back bit for bit; a changed one is refused by name
   for (EnergyTable::Cell& cell : cells) cell.weight[0] += 0.001F;
   const EnergyTable stale(family, table.grid(), cells);
   write_energy_table(stale, scratch.path("stale.exr"));
-  CHECK_THROWS_WITH(check_is_current(read_energy_table(scratch.path("stale.exr"))), Catch::Contains("beckmann-v-cavity: a stale table"));
+  CHECK_THROWS_WITH(check_is_current(read_energy_table(scratch.path("stale.exr"))),
+                    Catch::Contains("beckmann-v-cavity: a stale table"));
 }
 
 TEST_CASE("table writes a table, lookup finds E in it and in the bundled ones", "[cli][tables]") {
   const Scratch scratch;
   const std::string path = scratch.path("E.exr");
   CHECK(run_gonio({"table", "torrance-sparrow", "--set", "shadowing=v-cavity", "--out", path}).status == 0);
-  const auto limits = json_of({"table", "limits", "torrance-sparrow", "--set", "m=0.3", "--set", "shadowing=v-cavity", "--n", "1.5", "--angles", "0,60"});
-  for (const auto& json :
-       {json_of({"table", "lookup", path, "--set", "m=0.3", "--n", "1.5", "--angles", "0,60"}),
-        json_of({"table", "lookup", "torrance-sparrow", "--set", "m=0.3", "--set", "shadowing=v-cavity", "--n", "1.5", "--angles", "0,60"})})
+  const auto limits = json_of({"table", "limits", "torrance-sparrow", "--set", "m=0.3", "--set", "shadowing=v-cavity",
+                               "--n", "1.5", "--angles", "0,60"});
+  for (const auto& json : {json_of({"table", "lookup", path, "--set", "m=0.3", "--n", "1.5", "--angles", "0,60"}),
+                           json_of({"table", "lookup", "torrance-sparrow", "--set", "m=0.3", "--set",
+                                    "shadowing=v-cavity", "--n", "1.5", "--angles", "0,60"})})
     for (int i = 0; i < 2; ++i)
       CHECK(json["E"][i]["E"].get<double>() == Approx(limits["E"][i]["E"].get<double>()).margin(1e-4));
   check_refused(scratch, {"table", "lookup", path, "--n", "1.5"}, "width is not given");

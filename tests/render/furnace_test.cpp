@@ -19,6 +19,7 @@ Scene furnace(const LobeSum& model, std::vector<double> values) {
   Scene scene;
   scene.camera = {{0, -kDistance, 0}, {0, 0, 0}, kFov_deg, kPixels, kPixels};
   scene.materials = {{"tested", model, std::move(values), "perfect", {}}};
+  scene.materials[0].may_gain = true;  // Kirchhoff's lobe grows without bound next to grazing
   scene.spheres = {{{0, 0, 0}, 1, 0}};
   scene.environment = {1, "constant"};
   scene.wavelengths_nm = {550};
