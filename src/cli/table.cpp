@@ -13,6 +13,7 @@
 #include "energy/energy_file.h"
 #include "energy/energy_tables.h"
 #include "energy/limits_json.h"
+#include "energy/material_energy.h"
 
 namespace gonio::cli {
 namespace {
@@ -24,6 +25,7 @@ struct TableArguments {
   SurfaceArguments surface;
   std::string out, angles;
   std::optional<double> at_nm, ks;
+  bool spectrum = false;
 };
 
 Json limits_json(Limits limits, const Subject& subject, const std::vector<LimitRow>& rows) {
@@ -77,6 +79,8 @@ void print_limits(const Limits& limits, const Subject& subject, const std::vecto
              limits.worst_total > 1 + limits.worst_error ? fmt::format("is broken by {:.4g}", limits.worst_total - 1)
              : limits.bounded                            ? "holds"
                                                          : "holds up to there");
+  fmt::print("under uniform light its behaviour is {}: least kd rho_d {:.6f}, largest ks E {:.6f}\n",
+             limits.behaviour(), limits.diffuse_least, limits.lobes_most);
 }
 
 void set_ks(Subject& subject, double ks) {
@@ -98,6 +102,56 @@ SampledLobes lobes_at(const Subject& subject, const std::vector<double>& wavelen
   return all;
 }
 
+/// Limits of one wavelength, from the curves of its lobes and rounded to the conserving side by their error.
+struct SpectrumRow {
+  double wavelength_nm, e_max, e_mean, error, ks_max, kd_max;
+};
+
+SpectrumRow limits_at(const MaterialEnergy& energy, const std::vector<Brdf<double>>& lobes,
+                      const SurfaceSamples& samples, std::size_t w) {
+  SpectrumRow row{samples.wavelength_nm[w], 0, 0, 0, 0, 0};
+  double reflected = 0;
+  for (std::size_t j = 0; j < lobes.size(); ++j) {
+    const double within = lobes.size() > 1 ? lobes[j].ks : 1, largest = energy.lobes[j].at(w).largest().value;
+    row.e_max += within * largest;
+    row.e_mean += within * energy.lobes[j].at(w).mean();
+    row.error += within * energy.lobes[j].error();
+    reflected += lobes[j].ks * (largest + energy.lobes[j].error());
+  }
+  const double rho_d = lobes[0].diffuse_times_r0() ? samples.surface.interfaces[w].r0() : 1;
+  row.ks_max = 1 / (row.e_max + row.error);
+  row.kd_max = std::max(0.0, (1 - reflected) / rho_d);
+  return row;
+}
+
+std::vector<SpectrumRow> limits_spectrum(const SampledLobes& materials, const SurfaceSamples& samples) {
+  const MaterialEnergy energy(materials.front(), samples.surface, CompensationKind::none);
+  std::vector<SpectrumRow> rows;
+  for (std::size_t w = 0; w < samples.surface.size(); ++w)
+    rows.push_back(limits_at(energy, materials[materials.size() > 1 ? w : 0], samples, w));
+  return rows;
+}
+
+Json spectrum_json(const std::vector<SpectrumRow>& rows) {
+  Json all = Json::array();
+  for (const SpectrumRow& row : rows)
+    all.push_back({{"wavelength_nm", row.wavelength_nm > 0 ? Json(row.wavelength_nm) : Json(nullptr)},
+                   {"ks_max", row.ks_max},
+                   {"kd_max", row.kd_max},
+                   {"E_max", row.e_max},
+                   {"E_mean", row.e_mean},
+                   {"error", row.error}});
+  return all;
+}
+
+void print_spectrum(const std::vector<SpectrumRow>& rows) {
+  fmt::print("{:>13} {:>9} {:>9} {:>9} {:>9}   (without deltas; rounded to the conserving side by {:.1g})\n",
+             "wavelength_nm", "ks_max", "kd_max", "E_max", "E_mean", rows.front().error);
+  for (const SpectrumRow& row : rows)
+    fmt::print("{:>13g} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f}\n", row.wavelength_nm, row.ks_max, row.kd_max, row.e_max,
+               row.e_mean);
+}
+
 void run_limits(const TableArguments& arguments, Common& common) {
   Subject subject = make_subject(arguments.model, arguments.surface);
   if (arguments.ks) set_ks(subject, *arguments.ks);
@@ -111,10 +165,17 @@ void run_limits(const TableArguments& arguments, Common& common) {
   for (const double theta : asked)
     for (const LimitRow& row : limits.rows)
       if (row.theta_deg == theta) rows.push_back(row);
-  if (common.json)
-    std::cout << limits_json(limits, subject, rows).dump(2) << '\n';
-  else
+  const std::vector<SpectrumRow> spectrum = arguments.spectrum
+                                                ? limits_spectrum(lobes_at(subject, samples.wavelength_nm), samples)
+                                                : std::vector<SpectrumRow>();
+  if (common.json) {
+    Json json = limits_json(limits, subject, rows);
+    if (arguments.spectrum) json["spectrum"] = spectrum_json(spectrum);
+    std::cout << json.dump(2) << '\n';
+  } else {
     print_limits(limits, subject, rows);
+    if (arguments.spectrum) print_spectrum(spectrum);
+  }
   common.exit_code = limits.holds() ? 0 : 1;
 }
 
@@ -181,6 +242,8 @@ void add_table(CLI::App& app, Common& common) {
   limits->add_option("--ks", asked->ks, "ks for which kd_max is asked (default: the material's own); not for sums");
   limits->add_option("--at", asked->at_nm, "Wavelength in nm; without it the worst over the visible range of the data");
   limits->add_option("--angles", asked->angles, "Angles in degrees, 0 to 89.99, whose E is shown");
+  limits->add_flag("--spectrum", asked->spectrum,
+                   "ks_max, kd_max, the largest and the hemispherical mean E of each wavelength too");
   limits->callback([&common, asked] { run_limits(*asked, common); });
   add_table_instrument(*command, common);
   add_table_scatter(*command, common);

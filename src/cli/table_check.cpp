@@ -38,7 +38,8 @@ void run(const CheckArguments& a, Common& common) {
   std::vector<NamedSurface> held;
   std::vector<Interface<double>> interfaces;
   const Lobe<double> lobe = table.family().lobe(0.5);
-  const std::vector<NamedSurface> all = database_surfaces();
+  std::vector<NamedSurface> all = database_surfaces();
+  all.push_back({"perfect", 0, perfect_interface<double>()});
   for (const NamedSurface& one : all)
     if (node_error(lobe, one.interface, reflectance_at_nodes(lobe, one.interface)) <= kMostNodeError)
       held.push_back(one), interfaces.push_back(one.interface);

@@ -16,6 +16,7 @@ struct AtAngle {
   LimitRow worst_total;      ///< the wavelength of the largest total
   double largest_e = 0;      ///< max of E + coherent + error
   double smallest_kd = 1e9;  ///< min of (1 - ks(E + coherent + error))/ρd
+  double diffuse_least = 1e9, lobes_most = 0;
 };
 
 /// A material over the samples' wavelengths.
@@ -70,6 +71,8 @@ AtAngle look_along(const Sampled& material, double theta_deg, double phi_deg, do
     if (i == 0 || bound > result.largest_e) result.row = row;
     if (i == 0 || row.total > result.worst_total.total) result.worst_total = row;
     result.largest_e = std::max(result.largest_e, bound);
+    result.diffuse_least = std::min(result.diffuse_least, first.kd * rho_d);
+    result.lobes_most = std::max(result.lobes_most, ks * whole);
     if (rho_d > 0) result.smallest_kd = std::min(result.smallest_kd, (1 - ks * bound) / rho_d);
   }
   return result;
@@ -86,6 +89,7 @@ AtAngle look_at(const Sampled& material, double theta_deg, double tolerance) {
     if (one.largest_e > worst.largest_e) worst.row = one.row;
     if (one.worst_total.total > worst.worst_total.total) worst.worst_total = one.worst_total;
     worst.largest_e = std::max(worst.largest_e, one.largest_e);
+    worst.lobes_most = std::max(worst.lobes_most, one.lobes_most);
     worst.smallest_kd = std::min(worst.smallest_kd, one.smallest_kd);
   }
   return worst;
@@ -94,6 +98,8 @@ AtAngle look_at(const Sampled& material, double theta_deg, double tolerance) {
 void take(Limits& limits, const AtAngle& at, double& largest_e, double& smallest_kd) {
   largest_e = std::max(largest_e, at.largest_e);
   smallest_kd = std::min(smallest_kd, at.smallest_kd);
+  limits.diffuse_least = at.diffuse_least;  // the same at every incidence
+  limits.lobes_most = std::max(limits.lobes_most, at.lobes_most);
   limits.worst_error = std::max(limits.worst_error, at.row.e.error);
   if (at.worst_total.total > limits.worst_total) {
     limits.worst_total = at.worst_total.total;

@@ -32,8 +32,12 @@ struct Limits {
       90;               ///< limits hold up to here; below 90 the lobe is unbounded at grazing: "not conserving beyond"
   bool bounded = true;  ///< the lobe's E is bounded up to grazing
   double range_lo_nm = 0, range_hi_nm = 0;
+  double diffuse_least = 0;  ///< min over wavelengths of kd·ρd
+  double lobes_most = 0;     ///< max over wavelengths and incidences of ks·(E + coherent)
   std::vector<LimitRow> rows;
 
+  /// Which part dominates under uniform light: "diffuse" where kd·min ρd > ks·max E, else "specular" (Maillot 1996, §III.8).
+  const char* behaviour() const { return diffuse_least > lobes_most ? "diffuse" : "specular"; }
   /// (43) holds for the material as given.
   bool holds() const { return bounded && worst_total <= 1 + worst_error; }
 };

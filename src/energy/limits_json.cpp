@@ -28,6 +28,9 @@ Json to_json(const Limits& limits) {
            {{"total", limits.worst_total},
             {"theta_deg", limits.worst_theta_deg},
             {"wavelength_nm", wavelength(limits.worst_wavelength_nm)}}},
+          {"behaviour", limits.behaviour()},
+          {"kd_rho_d_min", limits.diffuse_least},
+          {"ks_E_max", limits.lobes_most},
           {"holds", limits.holds()}};
 }
 

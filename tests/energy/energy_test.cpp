@@ -131,3 +131,16 @@ TEST_CASE("Many wavelengths at once give what each gives alone", "[energy][slow]
     }
   }
 }
+
+TEST_CASE("the part that dominates under uniform light is told", "[energy][limits]") {
+  const SurfaceSamples glass{{550}, {{{1.5, 0, false}}, {0.55}}};
+  const auto limits = [&](double kd, double ks) {
+    return conservation_limits(Brdf<double>{TorranceSparrow<double>{0.3}, kd, ks}, glass, {0, 45, 80});
+  };
+  const Limits lobe_only = limits(0, 1);
+  CHECK(std::string(lobe_only.behaviour()) == "specular");
+  CHECK(lobe_only.lobes_most == Approx(1 / lobe_only.ks_max).margin(1e-5));
+  CHECK(std::string(limits(0.3, 0.6).behaviour()) == "specular");
+  CHECK(std::string(limits(0.6, 0.3).behaviour()) == "diffuse");
+  CHECK(limits(0.6, 0.3).diffuse_least == 0.6);
+}

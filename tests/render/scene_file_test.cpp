@@ -67,6 +67,21 @@ TEST_CASE("a scene file says what is rendered", "[scene]") {
         std::vector<double>{400, 532.5});
 }
 
+TEST_CASE("a material says what becomes of its energy", "[scene]") {
+  const Scene plain = parse_scene(kGood, "s.yaml");
+  CHECK(plain.materials[0].compensation == CompensationKind::none);
+  CHECK_FALSE(plain.materials[0].may_gain);
+  const Scene chosen = parse_scene(
+      replaced("    shadowing: v-cavity\n", "    compensation: kulla-conty-2017\n    energy: allow-gain\n"), "s.yaml");
+  CHECK(chosen.materials[0].compensation == CompensationKind::kulla_conty_2017);
+  CHECK(chosen.materials[0].may_gain);
+  CHECK_FALSE(chosen.materials[1].may_gain);
+  CHECK(refusal(replaced("    shadowing: v-cavity\n", "    compensation: turquin\n")) ==
+        "s.yaml:8: turquin: unknown compensation; expected none or kulla-conty-2017");
+  CHECK(refusal(replaced("    shadowing: v-cavity\n", "    energy: more\n")) ==
+        "s.yaml:8: energy is more; expected conserve or allow-gain");
+}
+
 TEST_CASE("a scene file's material may be a sum of lobes", "[scene]") {
   const auto sum = [](const std::string& set, const std::string& more = "") {
     return replaced("{model: lambert, set: {kd: 0.4}}", "{model: torrance-sparrow+ggx, set: {" + set +
