@@ -140,7 +140,8 @@ TEST_CASE("the part that dominates under uniform light is told", "[energy][limit
   const Limits lobe_only = limits(0, 1);
   CHECK(std::string(lobe_only.behaviour()) == "specular");
   CHECK(lobe_only.lobes_most == Approx(1 / lobe_only.ks_max).margin(1e-5));
-  CHECK(std::string(limits(0.3, 0.6).behaviour()) == "specular");
+  CHECK(std::string(limits(0.1, 0.6).behaviour()) == "specular");
+  CHECK(std::string(limits(0.3, 0.6).behaviour()) == "diffuse");  // E of glass is 0.32 at most
   CHECK(std::string(limits(0.6, 0.3).behaviour()) == "diffuse");
   CHECK(limits(0.6, 0.3).diffuse_least == 0.6);
 }
