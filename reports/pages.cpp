@@ -15,6 +15,8 @@
 #include "assess/merl_tables_page.h"
 #include "assess/model_choice_page.h"
 #include "assess/published_comparisons_page.h"
+#include "assess/table_speed.h"
+#include "assess/table_stability.h"
 #include "assess/wavelength_charts.h"
 #include "base/error.h"
 #include "base/files.h"
@@ -119,6 +121,13 @@ const std::vector<PublishedPage>& published_pages() {
        [](const fs::path& published, const fs::path& folder, const Progress&) {
          write_wavelength_errors(published, folder);
        }},
+      {"stability-tables", "where the tables of directional reflectance err, and what would happen beyond what they hold",
+       [](const fs::path&, const fs::path& folder, const Progress& progress) {
+         write_table_stability(folder, progress, true);
+       }},
+      {"speed-tables",
+       "size and time of tables of directional reflectance against their error, beside quadrature, sampling and renderers' tables; timed (1 min)",
+       [](const fs::path&, const fs::path& folder, const Progress& progress) { write_table_speed(folder, progress); }, false},
       {"fit-stability", "what is recovered, which starts end where, scans that mislead (42 s)",
        [](const fs::path&, const fs::path& folder, const Progress& progress) {
          write_fit_stability(folder, progress, true);

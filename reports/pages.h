@@ -8,8 +8,8 @@
 
 namespace gonio {
 
-/// A page is a folder: README.md, CSV tables, SVG plots. No timings. Where chance decides (which of many starts found the lowest minimum)
-/// numbers may change between machines, and nobody compares them.
+/// A page is a folder: README.md, CSV tables, SVG plots. Where chance decides (which of many starts found the lowest minimum) or
+/// time is taken, numbers change between machines, and nobody compares them.
 struct PublishedPage {
   std::string_view name, about;
   /// Makes the page in `folder`. `published` is where the published one lies: a page may keep the results of a long

@@ -4,6 +4,7 @@
 #include "assess/brdf_speed_charts.h"
 #include "assess/fit_speed.h"
 #include "assess/interpolation_charts.h"
+#include "assess/table_speed.h"
 #include "assess/wavelength_charts.h"
 #include "base/error.h"
 #include "cli/commands.h"
@@ -26,8 +27,10 @@ void assess_speed(const AssessArguments& arguments) {
     write_brdf_speed(out, [](const std::string& line) { std::cerr << line << '\n'; });
   } else if (arguments.what == "fit") {
     write_fit_speed(out, [](const std::string& line) { std::cerr << line << '\n'; });
+  } else if (arguments.what == "tables") {
+    write_table_speed(out, [](const std::string& line) { std::cerr << line << '\n'; });
   } else {
-    throw input_error("gonio assess speed: no chart {}; expected brdf, fit, interpolation or wavelengths",
+    throw input_error("gonio assess speed: no chart {}; expected brdf, fit, interpolation, tables or wavelengths",
                       arguments.what);
   }
   std::cout << out << '\n';
@@ -46,13 +49,14 @@ void add_assess(CLI::App& app, Common& common) {
       "evaluation "
       "against its error in 50 digits and on a lit sphere; fit: what a fit costs and how near the truth it comes, "
       "beside "
-      "Ceres");
+      "Ceres; tables: size and time of tables of directional reflectance against their error, beside quadrature, "
+      "sampling and renderers' tables");
   speed->footer(
       "Example: gonio assess speed brdf --out out/brdf-speed\n         gonio assess speed wavelengths "
       "--thorough --out out/wavelengths");
   add_common(*speed, common);
   auto arguments = std::make_shared<AssessArguments>();
-  speed->add_option("what", arguments->what, "brdf, fit, interpolation or wavelengths")->required();
+  speed->add_option("what", arguments->what, "brdf, fit, interpolation, tables or wavelengths")->required();
   speed->add_option("-o,--out", arguments->out, "Folder for CSV tables, SVG plots and README.md (out/assess/WHAT)");
   speed->add_flag("--thorough", arguments->thorough, "Wavelengths: the long search too (a quarter of an hour)");
   speed->callback([arguments] { assess_speed(*arguments); });
