@@ -20,18 +20,26 @@ double cosine_of_last(const Lobe<double>& lobe) {
   return cos_deg(unbounded_at_grazing(lobe) ? LobeEnergy::kUnboundedTo_deg : kLastAngle_deg);
 }
 
-/// E at each wavelength for one incidence.
-std::vector<double> integrated(const Lobe<double>& lobe, const SpectralSurface& surface, double cos_theta,
-                               double phi_deg) {
-  if (plain_facets(lobe) && !looks_at_the_grain(lobe)) {
-    const LobeMeasure measure = lobe_measure(lobe, std::acos(cos_theta) * 180 / kPi<double>, kTolerance);
-    std::vector<double> e(surface.size(), 0);
-    for (std::size_t w = 0; w < surface.size(); ++w)
-      for (std::size_t p = 0; p < measure.cos_d.size(); ++p)
-        e[w] += measure.weight[p] * facet_reflectance<double>(lobe, measure.cos_d[p], surface.interfaces[w]);
+/// R at the nodes for each wavelength, where the lobe spreads the light over cos_d alone and the nodes hold R; else nothing.
+std::vector<NodeValues> held_by_nodes(const Lobe<double>& lobe, const SpectralSurface& surface) {
+  std::vector<NodeValues> all;
+  if (!plain_facets(lobe) || looks_at_the_grain(lobe)) return all;
+  for (const Interface<double>& interface : surface.interfaces) {
+    all.push_back(reflectance_at_nodes(lobe, interface));
+    if (node_error(lobe, interface, all.back()) > kMostNodeError) return {};
+  }
+  return all;
+}
+
+/// E at each wavelength for one incidence. A lobe's measure is refined without a look at R: where R has a kink it is integrated as it is.
+std::vector<double> integrated(const Lobe<double>& lobe, const SpectralSurface& surface,
+                               const std::vector<NodeValues>& at_nodes, double cos_theta, double phi_deg) {
+  std::vector<double> e;
+  if (!at_nodes.empty()) {
+    const NodeValues weights = node_weights(lobe_measure(lobe, std::acos(cos_theta) * 180 / kPi<double>, kTolerance));
+    for (const NodeValues& r : at_nodes) e.push_back(sum_of_products(weights, r));
     return e;
   }
-  std::vector<double> e;
   const double theta_deg = std::acos(std::max(cos_theta, cosine_of_last(lobe))) * 180 / kPi<double>;
   for (const Estimate& one : directional_reflectance(lobe, theta_deg, surface, kTolerance, phi_deg))
     e.push_back(one.value);
@@ -119,10 +127,11 @@ bool LobeEnergy::take_from_tables(const Lobe<double>& lobe, const SpectralSurfac
 void LobeEnergy::integrate(const Lobe<double>& lobe, const SpectralSurface& surface) {
   const EnergyGrid grid;
   const std::size_t azimuths = looks_at_the_grain(lobe) ? kAzimuths : 1;
+  const std::vector<NodeValues> at_nodes = held_by_nodes(lobe, surface);
   std::vector<std::vector<double>> e(azimuths * grid.columns);
   tbb::parallel_for(std::size_t{0}, e.size(), [&](std::size_t at) {
     const double phi_deg = 90.0 / (kAzimuths - 1) * static_cast<double>(at / grid.columns);
-    e[at] = integrated(lobe, surface, grid.cos_theta(at % grid.columns), phi_deg);
+    e[at] = integrated(lobe, surface, at_nodes, grid.cos_theta(at % grid.columns), phi_deg);
   });
   for (std::size_t w = 0; w < surface.size(); ++w) {
     std::vector<ReflectanceCurve> quarter;

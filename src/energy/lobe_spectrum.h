@@ -19,6 +19,7 @@ class LobeSpectrum {
   Lobe<double> lobe_;
   Lobe<DoubleLanes> lanes_lobe_;
   std::vector<Interface<DoubleLanes>> interfaces_;
+  std::vector<DoubleLanes> perfect_;  ///< 1 where the surface reflects everything, else 0
   std::vector<DoubleLanes> wavelength_um_;
 };
 

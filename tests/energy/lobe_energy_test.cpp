@@ -46,6 +46,33 @@ TEST_CASE("E between the columns is that of the quadrature, within the error it 
   }
 }
 
+TEST_CASE("where R has a kink that the nodes do not hold, E is integrated with it", "[energy][tables]") {
+  // Total reflection from inside glass, a plasma edge, next to nothing, and white paint's reflectance taken as a dielectric's.
+  const SpectralSurface kinks{{{0.67, 0, false}, {0.29, 0.09, false}, {1.0001, 0, false}, {400, 0, false}},
+                              {0.5, 0.5, 0.5, 0.5}};
+  for (const Lobe<double>& lobe : {Lobe<double>(TorranceSparrow<double>{0.3}), Lobe<double>(Ggx<double>{2.24, 2.24})}) {
+    const LobeEnergy energy(lobe, kinks);
+    CHECK_FALSE(energy.from_table());
+    for (const double theta : {11.0, 45.0, 77.0, 88.3, 89.97})
+      for (std::size_t w = 0; w < 4; ++w) {
+        const double exact = directional_reflectance(lobe, theta, {{kinks.interfaces[w]}, {0.5}}, 1e-7)[0].value;
+        INFO("lobe " << lobe.index() << ", n " << kinks.interfaces[w].n << ", " << theta << " degrees");
+        CHECK(std::abs(energy.at(w)(cos_deg(theta)) - exact) <= energy.error());
+      }
+  }
+}
+
+TEST_CASE("a spectrum may hold perfect and real surfaces", "[energy]") {
+  const SpectralSurface mixed{{perfect_interface<double>(), {1.5, 0, false}}, {0.5, 0.5}},
+      turned{{{1.5, 0, false}, perfect_interface<double>()}, {0.5, 0.5}};
+  const Lobe<double> lobe = TorranceSparrow<double>{0.3};
+  const auto a = directional_reflectance(lobe, 40, mixed), b = directional_reflectance(lobe, 40, turned);
+  CHECK(a[0].value == Approx(b[1].value).margin(1e-7));
+  CHECK(a[1].value == Approx(b[0].value).margin(1e-7));
+  CHECK(a[0].value > 0.8);
+  CHECK(a[1].value < 0.1);
+}
+
 TEST_CASE("lobes without bound are known by their shape", "[energy]") {
   CHECK(unbounded_at_grazing(TorranceSparrow<double>{0.3, Shadowing::none}));
   CHECK(unbounded_at_grazing(Ggx<double>{0.3, 0.3, Shadowing::none}));
