@@ -14,6 +14,8 @@ constexpr double kTolerance = 1e-6;
 constexpr std::size_t kAzimuths = 10;  // 0, 10, … 90 degrees
 /// Largest error of the cubics between columns where E is integrated there, measured (tests/energy/lobe_energy_test.cpp).
 constexpr double kBetweenColumns = 2e-4;
+/// The same where R has a kink, as a share of what the nodes lose of R (reports/stability-tables).
+constexpr double kOfKinks = 0.02;
 constexpr double kLastAngle_deg = 89.9999;
 
 double cosine_of_last(const Lobe<double>& lobe) {
@@ -143,6 +145,9 @@ void LobeEnergy::integrate(const Lobe<double>& lobe, const SpectralSurface& surf
     curves_.push_back(AzimuthalCurve::of(quarter));
   }
   error_ = kBetweenColumns;
+  if (plain_facets(lobe))
+    for (const Interface<double>& interface : surface.interfaces)
+      error_ = std::max(error_, kOfKinks * node_error(lobe, interface, reflectance_at_nodes(lobe, interface)));
 }
 
 bool unbounded_at_grazing(const Lobe<double>& lobe) {
