@@ -9,6 +9,7 @@
 #include <set>
 
 #include "assess/brdf_stability.h"
+#include "assess/conservation_page.h"
 #include "assess/fit_stability.h"
 #include "assess/interpolation_charts.h"
 #include "assess/kramers_kronig_charts.h"
@@ -117,6 +118,12 @@ const std::vector<PublishedPage>& published_pages() {
        [](const fs::path&, const fs::path& folder, const Progress&) { write_published_comparisons(folder); }},
       {"merl-tables", "the published fits of the MERL materials (Ngan, Low, Bagher) evaluated side by side",
        [](const fs::path&, const fs::path& folder, const Progress&) { write_merl_tables(folder); }},
+      {"conservation-limits",
+       "what kd and ks may be: every metal's limits, rooms inside, at and beyond them, what single scattering loses (1 "
+       "min)",
+       [](const fs::path&, const fs::path& folder, const Progress& progress) {
+         write_conservation_limits(folder, progress);
+       }},
       {"wavelengths", "how few wavelengths a scene needs, against rules that do not know it; every lamp",
        [](const fs::path& published, const fs::path& folder, const Progress&) {
          write_wavelength_errors(published, folder);

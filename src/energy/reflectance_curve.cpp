@@ -1,10 +1,23 @@
 #include "energy/reflectance_curve.h"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <limits>
 
 #include "brdf/lanes.h"
 
 namespace gonio {
+namespace {
+
+/// Bound of the cubic through four columns between the middle two: the larger of them and an eighth of the larger second difference.
+double highest_between(std::span<const double> e, std::size_t column) {
+  if (column == 0 || column + 2 >= e.size()) return std::numeric_limits<double>::infinity();
+  const auto bend = [&](std::size_t c) { return std::abs(e[c - 1] - 2 * e[c] + e[c + 1]); };
+  return std::max(e[column], e[column + 1]) + std::max(bend(column), bend(column + 1)) / 8;
+}
+
+}  // namespace
 
 ReflectanceCurve ReflectanceCurve::of(const std::function<double(double)>& e, std::size_t columns) {
   const EnergyGrid grid{.columns = columns};
@@ -48,13 +61,17 @@ double ReflectanceCurve::mean() const {
 
 ReflectanceCurve::Largest ReflectanceCurve::largest() const {
   Largest found;
-  constexpr int kBetween = 4;  // places between columns, where a cubic may rise above both
   for (std::size_t c = 0; c < e_.size(); ++c)
-    for (int part = 0; part < (c + 1 < e_.size() ? kBetween : 1); ++part) {
-      const double next = c + 1 < e_.size() ? grid_.cos_theta(c + 1) : 1, here = grid_.cos_theta(c);
+    if (e_[c] > found.value) found = {e_[c], grid_.cos_theta(c)};
+  constexpr int kBetween = 4;  // places between columns, where a cubic may rise above both
+  for (std::size_t c = 0; c + 1 < e_.size(); ++c) {
+    if (highest_between(e_, c) <= found.value) continue;
+    const double here = grid_.cos_theta(c), next = grid_.cos_theta(c + 1);
+    for (int part = 1; part < kBetween; ++part) {
       const double cosine = here + (next - here) * part / kBetween, value = (*this)(cosine);
       if (value > found.value) found = {value, cosine};
     }
+  }
   return found;
 }
 

@@ -88,3 +88,21 @@ TEST_CASE("lobes without bound are known by their shape", "[energy]") {
   };
   CHECK(at(89.9) > 5 * at(89));
 }
+
+TEST_CASE("The largest of a curve is that of all places looked at, though most are passed over", "[energy]") {
+  std::uint32_t seed = 7;
+  const auto uniform = [&] { return (seed = seed * 1664525 + 1013904223) / 4294967296.0; };
+  for (int rough = 0; rough < 50; ++rough) {
+    const double wave = 40 * uniform(), phase = 6 * uniform(), noise = 0.02 * (rough % 3) * uniform();
+    const ReflectanceCurve curve =
+        ReflectanceCurve::of([&](double c) { return 1 + 0.3 * std::sin(wave * c + phase) + noise * uniform(); });
+    double largest = 0;
+    for (std::size_t column = 0; column + 1 < curve.values().size(); ++column)
+      for (int part = 0; part <= 4; ++part) {
+        const double here = curve.cos_theta(column), next = curve.cos_theta(column + 1);
+        largest = std::max(largest, curve(here + (next - here) * part / 4));
+      }
+    CHECK(curve.largest().value == Approx(largest).epsilon(1e-12));
+    CHECK(curve(curve.largest().cos_theta) == Approx(largest).epsilon(1e-12));
+  }
+}
