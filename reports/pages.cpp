@@ -123,18 +123,23 @@ const std::vector<PublishedPage>& published_pages() {
        "min)",
        [](const fs::path&, const fs::path& folder, const Progress& progress) {
          write_conservation_limits(folder, progress);
-       }},
+       },
+       false},
       {"wavelengths", "how few wavelengths a scene needs, against rules that do not know it; every lamp",
        [](const fs::path& published, const fs::path& folder, const Progress&) {
          write_wavelength_errors(published, folder);
        }},
-      {"stability-tables", "where the tables of directional reflectance err, and what would happen beyond what they hold",
+      {"stability-tables",
+       "where the tables of directional reflectance err, and what would happen beyond what they hold",
        [](const fs::path&, const fs::path& folder, const Progress& progress) {
          write_table_stability(folder, progress, true);
-       }},
+       },
+       false},
       {"speed-tables",
-       "size and time of tables of directional reflectance against their error, beside quadrature, sampling and renderers' tables; timed (1 min)",
-       [](const fs::path&, const fs::path& folder, const Progress& progress) { write_table_speed(folder, progress); }, false},
+       "size and time of tables of directional reflectance against their error, beside quadrature, sampling and "
+       "renderers' tables; timed (1 min)",
+       [](const fs::path&, const fs::path& folder, const Progress& progress) { write_table_speed(folder, progress); },
+       false},
       {"fit-stability", "what is recovered, which starts end where, scans that mislead (42 s)",
        [](const fs::path&, const fs::path& folder, const Progress& progress) {
          write_fit_stability(folder, progress, true);

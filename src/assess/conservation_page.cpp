@@ -111,15 +111,18 @@ std::string compensation_table() {
 
 std::string limits_text(const std::vector<MetalSurface>& metals, const std::vector<MetalLimits>& all) {
   const SlopeLimits white = slope_limits(conservation_models()[0], 1, metals.front());
-  std::string symbols;
-  for (std::size_t i = 1; i < metals.size(); ++i) symbols += (i > 1 ? " " : "") + metals[i].symbol;
+  std::string symbols, hard;
+  for (std::size_t i = 1; i < metals.size(); ++i) {
+    symbols += (i > 1 ? " " : "") + metals[i].symbol;
+    if (metals[i].node_error > 0) hard += (hard.empty() ? "" : ", ") + metals[i].symbol;
+  }
   return fmt::format(
              "# What kd and ks may be\n\n"
              "No more light may leave a surface than arrives: kd·ρ_d + ks·E(θ, λ) <= 1 at every incidence and "
              "wavelength (Maillot 1996, eq. (43)); ρ_d is R0 in\n"
              "`pseudo-realistic`, 1 elsewhere. E is that of the tables that the build makes, {} to {} nm in steps of "
              "{} nm as far as the data reach. Every limit is lowered by the\n"
-             "tables' error ({:g} in E; more for Cs and Rb, whose R no polynomial of the tables follows) and rounded "
+             "tables' error ({:g} in E; more for {}, whose R no polynomial of the tables follows) and rounded "
              "down, so that what is printed conserves. All of it: "
              "[limits.csv](limits.csv). For any other material: `gonio table limits`.\n\n"
              "The {} metals are the metallic elements whose symbol names optical constants of the database: {}.\n\n"
@@ -130,11 +133,11 @@ std::string limits_text(const std::vector<MetalSurface>& metals, const std::vect
              "bounds every metal. E at grazing is where nearly all are worst,\n"
              "and R there is close to 1 for each: metals differ little while m is small.\n\n"
              "![Largest ks, pseudo-realistic](ks-pseudo-realistic.svg)\n\n",
-             kVisibleLo_nm, kVisibleHi_nm, kVisibleStep_nm, EnergyTable::kError, metals.size() - 1, symbols,
+             kVisibleLo_nm, kVisibleHi_nm, kVisibleStep_nm, EnergyTable::kError, hard, metals.size() - 1, symbols,
              white.largest_e, white.theta_deg, down(white.ks_max)) +
          limits_table(all, 0) +
-         "\n`torrance-sparrow` has a normalised density and Smith's masking: E <= max R, and ks = 1 is safe for all "
-         "metals. More than 1 is allowed only for what R itself loses.\n\n"
+         "\n`torrance-sparrow` has a normalised density and Smith's masking: E <= max R, so that ks = 1 is "
+         "safe for every metal (for F = 1 less the tables' error), and what more there may be is what R loses.\n\n"
          "![Largest ks, torrance-sparrow](ks-torrance-sparrow.svg)\n\n" +
          limits_table(all, 1);
 }

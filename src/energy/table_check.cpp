@@ -79,6 +79,7 @@ struct Place {
 };
 
 std::vector<Place> dense_places(const EnergyGrid& grid, std::size_t times) {
+  if (times == 0) return {};
   const EnergyGrid denser{(grid.rows - 1) * times + 1, (grid.columns - 1) * times + 1, grid.widest};
   std::vector<Place> places;
   for (std::size_t r = 0; r < denser.rows; ++r)
@@ -99,6 +100,7 @@ std::vector<Place> random_places(const EnergyGrid& grid, std::size_t count) {
 }
 
 TableError worst_of(const Judge& judge, const std::vector<Place>& places, const std::function<void()>& one_done) {
+  if (places.empty()) return {};
   std::vector<TableError> all(places.size());
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t p) {
     all[p] = judge.at(places[p].cos_theta, places[p].alpha);

@@ -14,7 +14,7 @@ struct TableError {
 
 /// What a table loses against the quadrature it stands for.
 struct TableCheck {
-  TableError dense;   ///< the worst on a grid some times denser each way
+  TableError dense;   ///< the worst on a grid some times denser each way (0: none)
   TableError random;  ///< the worst of random places
   /// How far the random places go beyond the dense grid (or stay below it, negative).
   double margin() const { return random.error - dense.error; }
