@@ -22,7 +22,7 @@ NodeValues node_weights(const LobeMeasure& measure);
 /// What multiplies the lobe's shape, at the nodes.
 NodeValues reflectance_at_nodes(const Lobe<double>& lobe, const Interface<double>& surface);
 
-/// Largest difference of R from its polynomial, at cosines between the nodes. Below 5e-5 for every solid and liquid that is no metal next to its plasma edge;
+/// Largest difference of R from its polynomial, at cosines between the nodes. Below kMostNodeError for every solid and liquid of the database but alkali metals next to their plasma edges;
 /// large where n is nearly 1 or several hundred (reflectances of 0.00 and 0.99 taken as a dielectric's).
 /// Up to kMostNodeError tables are used; beyond it E is integrated.
 inline constexpr double kMostNodeError = 2e-5;

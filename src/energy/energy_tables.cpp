@@ -37,7 +37,10 @@ const EnergyTable* bundled_energy_table(const LobeFamily& family) {
   const auto known = read.find(family.name);
   if (known != read.end()) return known->second ? &*known->second : nullptr;
   std::optional<EnergyTable> table;
-  if (const auto file = find_data_file("tables/" + file_of(family))) table = read_energy_table(*file);
+  if (const auto file = find_data_file("tables/" + file_of(family))) {
+    table = read_energy_table(*file);
+    check_is_current(*table);  // some milliseconds: a table of other lobes than this program's would be silently wrong
+  }
   const auto& kept = read.emplace(family.name, std::move(table)).first->second;
   return kept ? &*kept : nullptr;
 }

@@ -6,7 +6,7 @@
 namespace gonio {
 
 /// The tables that come with gonio (made by the build: tables/FAMILY.exr), each read when first asked for. nullptr where there is no such file
-/// or gonio is not installed with it: then E is integrated. InputError for a file that is damaged or of another version. Thread-safe.
+/// or gonio is not installed with it: then E is integrated. InputError for a file that is damaged, of another version, or stale (made of other lobes). Thread-safe.
 const EnergyTable* bundled_energy_table(const LobeFamily& family);
 
 /// Makes every family's table in a folder; those there that are whole and current are kept, so that a run cut short is taken up again.
