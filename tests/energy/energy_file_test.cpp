@@ -68,7 +68,7 @@ TEST_CASE("a table of E comes back bit for bit; a changed one is refused by name
                     Catch::Contains("beckmann-v-cavity: a stale table"));
 }
 
-TEST_CASE("table writes a table, lookup finds E in it and in the bundled ones", "[cli][tables]") {
+TEST_CASE("table writes a table, lookup finds E in it and in the bundled ones", "[cli][tables][slow]") {
   const Scratch scratch;
   const std::string path = scratch.path("E.exr");
   CHECK(run_gonio({"table", "torrance-sparrow", "--set", "shadowing=v-cavity", "--out", path}).status == 0);

@@ -202,7 +202,7 @@ TEST_CASE("Directional-hemispherical and hemispherical-directional agree where a
 }
 
 TEST_CASE("A lobe much narrower than both cones is found, and lost at their edges as light that is traced",
-          "[energy][instrument]") {
+          "[energy][instrument][slow]") {
   const auto narrow = lobes_of("torrance-sparrow", {0.002, 0, 1});
   const double directional = seen(narrow, instrument_geometry("8:di"), kGold).factor.value;
   CHECK(seen(narrow, {{{8, 0, 2}}, {{8, 180, 5}}}, kGold).reflectance->value == Approx(directional).epsilon(1e-4));
@@ -217,7 +217,7 @@ TEST_CASE("A lobe much narrower than both cones is found, and lost at their edge
   }
 }
 
-TEST_CASE("Cones, holes and hemispheres agree with light that is traced", "[energy][instrument]") {
+TEST_CASE("Cones, holes and hemispheres agree with light that is traced", "[energy][instrument][slow]") {
   const auto check = [](const char* model, std::vector<double> values, const InstrumentGeometry& geometry, bool retro) {
     auto lobes = lobes_of(model, std::move(values));
     lobes[0].retro = retro;
