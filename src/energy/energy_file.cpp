@@ -9,7 +9,11 @@
 #include <ImfStringAttribute.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "base/digest.h"
 #include "base/error.h"
@@ -22,7 +26,7 @@ namespace fs = std::filesystem;
 using Cell = EnergyTable::Cell;
 
 constexpr int kVersion = 2;
-constexpr std::size_t kMostSide = 4096;
+constexpr std::size_t kMostSide = 256;  // a small file shall not ask for much memory
 
 std::string channel(std::size_t node) { return fmt::format("weight_{:02}", node); }
 
@@ -64,6 +68,40 @@ std::string text_of(const Imf::Header& header, const char* name) {
   const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name);
   if (!attribute) throw input_error("attribute {} is missing; expected a table of E", name);
   return attribute->value();
+}
+
+/// Before it looks at the pixels OpenEXR makes room for whatever an attribute claims: none may be longer than the file, the
+/// window no larger than a table, the layout no other than lines of one part.
+void check_claims(std::string_view bytes) {
+  constexpr std::size_t kStart = 8;  // magic number and version
+  constexpr std::array<std::string_view, 8> kTypes{"int",   "string",    "chlist", "compression",
+                                                   "box2i", "lineOrder", "float",  "v2f"};
+  const auto whole = [](bool yes) {
+    if (!yes) throw input_error("is no whole OpenEXR file of a table's layout; expected a table of E");
+  };
+  const auto text_end = [&](std::size_t from) {
+    const std::size_t end = bytes.find('\0', from);
+    whole(end != bytes.npos);
+    return end;
+  };
+  whole(bytes.size() > kStart && (bytes[5] & ~0x04) == 0 && bytes[6] == 0 && bytes[7] == 0);  // 0x04: long names
+  for (std::size_t at = kStart; text_end(at) != at;) {
+    const std::string_view name = bytes.substr(at, text_end(at) - at);
+    const std::size_t type_at = at + name.size() + 1, length_at = text_end(type_at) + 1;
+    const std::string_view type = bytes.substr(type_at, length_at - 1 - type_at);
+    whole(std::ranges::find(kTypes, type) != kTypes.end());  // previews and lists hold further claims
+    std::int32_t length = -1;
+    if (length_at + sizeof length <= bytes.size()) std::memcpy(&length, &bytes[length_at], sizeof length);
+    at = length_at + sizeof length;
+    whole(length >= 0 && at <= bytes.size() && static_cast<std::size_t>(length) <= bytes.size() - at);
+    if (name.ends_with("Window")) {
+      std::array<std::int32_t, 4> box{};
+      whole(static_cast<std::size_t>(length) == sizeof box);
+      std::memcpy(box.data(), &bytes[at], sizeof box);
+      for (const std::int32_t side : box) whole(side >= 0 && static_cast<std::size_t>(side) < kMostSide);
+    }
+    at += static_cast<std::size_t>(length);
+  }
 }
 
 EnergyTable read_pixels(const fs::path& path) {
@@ -139,6 +177,7 @@ void write_energy_table(const EnergyTable& table, const fs::path& exr) {
 EnergyTable read_energy_table(const fs::path& exr) {
   if (!fs::is_regular_file(exr)) throw input_error("{}: cannot be read; expected a table of E", exr.string());
   try {
+    check_claims(read_file(exr));
     return read_pixels(exr);
   } catch (const InputError& error) {
     throw input_error("{}: {}", exr.string(), error.what());

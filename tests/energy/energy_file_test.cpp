@@ -52,6 +52,12 @@ TEST_CASE("a table of E comes back bit for bit; a changed one is refused by name
   CHECK(refusal(scratch.path("text.exr")).find("OpenEXR") != std::string::npos);
   CHECK(refusal(scratch.path("missing.exr")).find("cannot be read") != std::string::npos);
 
+  // A small file that claims a long attribute is refused before anybody makes room for it.
+  std::string claims = bytes;
+  claims[claims.find("checksum") + 8 + 1 + 6 + 1 + 3] = '\x7f';
+  scratch.file("claims.exr", claims);
+  CHECK(refusal(scratch.path("claims.exr")).find("no whole OpenEXR file") != std::string::npos);
+
   // Another checksum than its numbers'.
   std::string forged = bytes;
   char& digit = forged[forged.find("checksum") + 8 + 1 + 6 + 1 + 4];  // name, type, size
