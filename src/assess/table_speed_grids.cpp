@@ -46,16 +46,6 @@ struct CatmullRomTaps {
   }
 };
 
-std::vector<float> on_grid(const EnergyTable& table, const NodeValues& r) {
-  std::vector<float> e;
-  for (const EnergyTable::Cell& cell : table.cells()) {
-    double sum = 0;
-    for (std::size_t i = 0; i < kCosNodes; ++i) sum += r[i] * double(cell.weight[i]);
-    e.push_back(static_cast<float>(sum));
-  }
-  return e;
-}
-
 /// As SurfaceEnergyTable::reflectances(): places in lanes, taps one by one.
 template <class Taps>
 void look_up(const EnergyGrid& grid, const std::vector<float>& known, std::span<const float> cos_theta,
@@ -126,7 +116,7 @@ TableSpeedRow judged_row(const EnergyTable& table, const JudgedPlaces& judged, s
 template <class Taps>
 std::function<Lookup(const NodeValues&)> rival(const EnergyTable& table) {
   return [&table](const NodeValues& r) -> Lookup {
-    return [grid = table.grid(), e = on_grid(table, r)](Asked& asked) {
+    return [grid = table.grid(), e = table.values(r)](Asked& asked) {
       look_up<Taps>(grid, e, asked.cos_theta, asked.alpha, asked.e);
     };
   };

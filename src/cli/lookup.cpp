@@ -23,13 +23,15 @@ struct LookupArguments {
   SurfaceArguments surface;
   std::optional<double> at_nm;
   std::string angles = "0,30,60,80,89";
+  double phi_i_deg = 0;
 };
 
 /// E over the incidence, and where it comes from.
 struct Found {
   std::string model, source;
-  ReflectanceCurve curve;
+  AzimuthalCurve curve;
   double error;
+  bool bounded = true, delta = false;
 };
 
 /// The width that --set gives: alpha, or m (alpha = √2·m).
@@ -55,8 +57,8 @@ Found look_in_file(const LookupArguments& a, const Interface<double>& surface) {
   const double alpha = asked_alpha(a, table);
   const Lobe<double> lobe = table.family().lobe(alpha);
   const NodeValues r = reflectance_at_nodes(lobe, surface);
-  return {fmt::format("{}, alpha = {:g}", table.family().name, alpha), a.model.model, table.curve(alpha, r),
-          EnergyTable::kError + node_error(lobe, surface, r)};
+  return {fmt::format("{}, alpha = {:g}", table.family().name, alpha), a.model.model,
+          AzimuthalCurve(table.curve(alpha, r)), EnergyTable::kError + node_error(lobe, surface, r)};
 }
 
 Found look_up(const LookupArguments& a, const Interface<double>& surface) {
@@ -68,7 +70,12 @@ Found look_up(const LookupArguments& a, const Interface<double>& surface) {
   if (model.sum.needs_wavelength() && !a.at_nm)
     throw input_error("{}: needs a wavelength; expected --at NM", a.model.model);
   const LobeEnergy energy(brdf.lobe, {{surface}, {um}});
-  return {a.model.model, energy.from_table() ? "tables" : "quadrature", energy.at(0).around(), energy.error()};
+  return {a.model.model,
+          energy.from_table() ? "tables" : "quadrature",
+          energy.at(0),
+          energy.error(),
+          !unbounded_at_grazing(brdf.lobe),
+          has_delta(brdf.lobe)};
 }
 
 void run(const LookupArguments& a, const Common& common) {
@@ -77,14 +84,23 @@ void run(const LookupArguments& a, const Common& common) {
     throw input_error("{}: needs a wavelength; expected --at NM", surface.name());
   const Found found = look_up(a, surface.at(a.at_nm.value_or(0)));
   Json rows = Json::array();
-  for (const double theta : number_list(a.angles, "--angles", 0, 90))
-    rows.push_back({{"theta_deg", theta}, {"E", found.curve(cos_deg(theta))}, {"error", found.error}});
+  const double cos_2phi = std::cos(2 * a.phi_i_deg * kPi<double> / 180);
+  for (const double theta : number_list(a.angles, "--angles", 0, 90)) {
+    if (!found.bounded && theta > LobeEnergy::kUnboundedTo_deg)
+      throw input_error(
+          "--angles {:g}: E of {} grows without bound next to grazing; expected at most {:g} here, or `table limits`",
+          theta, found.model, LobeEnergy::kUnboundedTo_deg);
+    rows.push_back({{"theta_deg", theta}, {"E", found.curve(cos_deg(theta), cos_2phi)}, {"error", found.error}});
+  }
   const auto largest = found.curve.largest();
   const double largest_deg = std::acos(largest.cos_theta) * 180 / kPi<double>;
   if (common.json) {
-    std::cout << Json{{"model", found.model},         {"material", surface.name()},
-                      {"source", found.source},       {"E", rows},
-                      {"E_mean", found.curve.mean()}, {"E_max", {{"theta_deg", largest_deg}, {"E", largest.value}}},
+    std::cout << Json{{"model", found.model},
+                      {"material", surface.name()},
+                      {"source", found.source},
+                      {"E", rows},
+                      {"E_mean", found.bounded ? Json(found.curve.mean()) : Json(nullptr)},
+                      {"E_max", {{"theta_deg", largest_deg}, {"E", largest.value}}},
                       {"error", found.error}}
                      .dump(2)
               << '\n';
@@ -94,8 +110,13 @@ void run(const LookupArguments& a, const Common& common) {
              "theta_deg", "E (ks = 1)", found.error);
   for (const Json& row : rows)
     fmt::print("{:>10g} {:>12.6f}\n", row["theta_deg"].get<double>(), row["E"].get<double>());
-  fmt::print("hemispherical mean {:.6f}; largest {:.6f} at {:.4g} degrees\n", found.curve.mean(), largest.value,
-             largest_deg);
+  if (found.curve.has_grain())
+    fmt::print("light from {:g} degrees to the grain; the mean is over all azimuths\n", a.phi_i_deg);
+  if (found.delta) fmt::print("the delta in the mirror direction is not in E\n");
+  fmt::print(
+      "{}largest {:.6f} at {:.4g} degrees{}\n",
+      found.bounded ? fmt::format("hemispherical mean {:.6f}; ", found.curve.mean()) : "", largest.value, largest_deg,
+      found.bounded ? "" : fmt::format(" (looked for to {:g}: it grows without bound)", LobeEnergy::kUnboundedTo_deg));
 }
 
 }  // namespace
@@ -115,6 +136,7 @@ void add_table_lookup(CLI::App& table, Common& common) {
   a->model.add_to(*command);
   a->surface.add_to(*command);
   command->add_option("--at", a->at_nm, "Wavelength in nm");
+  command->add_option("--phi-i", a->phi_i_deg, "Azimuth of the light from the grain, degrees")->capture_default_str();
   command->add_option("--angles", a->angles, "Angles in degrees, 0 to 90")->capture_default_str();
   command->callback([&common, a] { run(*a, common); });
 }

@@ -110,21 +110,23 @@ struct SpectrumRow {
 SpectrumRow limits_at(const MaterialEnergy& energy, const std::vector<Brdf<double>>& lobes,
                       const SurfaceSamples& samples, std::size_t w) {
   SpectrumRow row{samples.wavelength_nm[w], 0, 0, 0, 0, 0};
-  double reflected = 0;
-  for (std::size_t j = 0; j < lobes.size(); ++j) {
-    const double within = lobes.size() > 1 ? lobes[j].ks : 1, largest = energy.lobes[j].at(w).largest().value;
-    row.e_max += within * largest;
-    row.e_mean += within * energy.lobes[j].at(w).mean();
-    row.error += within * energy.lobes[j].error();
-    reflected += lobes[j].ks * (largest + energy.lobes[j].error());
+  std::vector<Brdf<double>> asked = lobes;
+  if (asked.size() == 1) asked[0].ks = 1;
+  for (std::size_t j = 0; j < asked.size(); ++j) {
+    row.e_mean += asked[j].ks * energy.lobes[j].at(w).mean();
+    row.error += asked[j].ks * energy.lobes[j].error();
   }
+  row.e_max = lobes_reflectance(energy, asked, samples.surface, w).value;
   const double rho_d = lobes[0].diffuse_times_r0() ? samples.surface.interfaces[w].r0() : 1;
   row.ks_max = 1 / (row.e_max + row.error);
-  row.kd_max = std::max(0.0, (1 - reflected) / rho_d);
+  row.kd_max = std::max(0.0, (1 - (lobes.size() == 1 ? lobes[0].ks : 1) * (row.e_max + row.error)) / rho_d);
   return row;
 }
 
 std::vector<SpectrumRow> limits_spectrum(const SampledLobes& materials, const SurfaceSamples& samples) {
+  for (const Brdf<double>& one : materials.front())
+    if (unbounded_at_grazing(one.lobe))
+      throw input_error("--spectrum: the lobe grows without bound next to grazing; expected a bounded one, or --at NM");
   const MaterialEnergy energy(materials.front(), samples.surface, CompensationKind::none);
   std::vector<SpectrumRow> rows;
   for (std::size_t w = 0; w < samples.surface.size(); ++w)
@@ -145,8 +147,10 @@ Json spectrum_json(const std::vector<SpectrumRow>& rows) {
 }
 
 void print_spectrum(const std::vector<SpectrumRow>& rows) {
-  fmt::print("{:>13} {:>9} {:>9} {:>9} {:>9}   (without deltas; rounded to the conserving side by {:.1g})\n",
-             "wavelength_nm", "ks_max", "kd_max", "E_max", "E_mean", rows.front().error);
+  fmt::print(
+      "{:>13} {:>9} {:>9} {:>9} {:>9}   (E_max with deltas, E_mean without; rounded to the conserving side by "
+      "{:.1g})\n",
+      "wavelength_nm", "ks_max", "kd_max", "E_max", "E_mean", rows.front().error);
   for (const SpectrumRow& row : rows)
     fmt::print("{:>13g} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f}\n", row.wavelength_nm, row.ks_max, row.kd_max, row.e_max,
                row.e_mean);

@@ -75,13 +75,18 @@ ReflectanceCurve EnergyTable::curve(double alpha, const NodeValues& r) const {
   return ReflectanceCurve(std::move(e));
 }
 
-SurfaceEnergyTable::SurfaceEnergyTable(const EnergyTable& table, const NodeValues& r) : grid_(table.grid()) {
-  for (const EnergyTable::Cell& cell : table.cells()) {
+std::vector<float> EnergyTable::values(const NodeValues& r) const {
+  std::vector<float> e;
+  for (const Cell& cell : cells_) {
     double sum = 0;
     for (std::size_t i = 0; i < kCosNodes; ++i) sum += r[i] * double(cell.weight[i]);
-    e_.push_back(static_cast<float>(sum));
+    e.push_back(static_cast<float>(sum));
   }
+  return e;
 }
+
+SurfaceEnergyTable::SurfaceEnergyTable(const EnergyTable& table, const NodeValues& r)
+    : grid_(table.grid()), e_(table.values(r)) {}
 
 double SurfaceEnergyTable::reflectance(double cos_theta, double alpha) const {
   return interpolated(CubicTaps<double>(grid_.row_of(alpha), grid_.rows),

@@ -35,6 +35,9 @@ class EnergyTable {
   /// E of one width and surface over the incidence; `r` = reflectance_at_nodes().
   ReflectanceCurve curve(double alpha, const NodeValues& r) const;
 
+  /// E of one surface at every place of the grid, row by row.
+  std::vector<float> values(const NodeValues& r) const;
+
   const LobeFamily& family() const { return *family_; }
   const EnergyGrid& grid() const { return grid_; }
   std::span<const Cell> cells() const { return cells_; }

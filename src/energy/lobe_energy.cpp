@@ -92,6 +92,13 @@ ReflectanceCurve::Largest AzimuthalCurve::largest() const {
   return found;
 }
 
+double AzimuthalCurve::truncation() const {
+  double most = 0;
+  for (std::size_t k = harmonics_.size() > 2 ? harmonics_.size() - 2 : harmonics_.size(); k < harmonics_.size(); ++k)
+    for (const double value : harmonics_[k].values()) most = std::max(most, std::abs(value));
+  return most;
+}
+
 LobeEnergy::LobeEnergy(const Lobe<double>& lobe, const SpectralSurface& surface) {
   const bool shapeless = std::holds_alternative<Lambert>(lobe) || std::holds_alternative<Mirror>(lobe);
   if (shapeless) {
@@ -145,6 +152,9 @@ void LobeEnergy::integrate(const Lobe<double>& lobe, const SpectralSurface& surf
     curves_.push_back(AzimuthalCurve::of(quarter));
   }
   error_ = kBetweenColumns;
+  constexpr double kOfLastHarmonics = 4;  // harmonics fall off geometrically: what follows, and what is folded back
+  for (const AzimuthalCurve& curve : curves_)
+    error_ = std::max(error_, kBetweenColumns + kOfLastHarmonics * curve.truncation());
   if (plain_facets(lobe))
     for (const Interface<double>& interface : surface.interfaces)
       error_ = std::max(error_, kOfKinks * node_error(lobe, interface, reflectance_at_nodes(lobe, interface)));

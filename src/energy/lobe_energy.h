@@ -22,6 +22,8 @@ class AzimuthalCurve {
   const ReflectanceCurve& around() const { return harmonics_.front(); }
   double mean() const { return around().mean(); }
   ReflectanceCurve::Largest largest() const;
+  /// The largest of the last two harmonics: about what the Fourier sum leaves out; 0 where there is no grain.
+  double truncation() const;
 
  private:
   std::vector<ReflectanceCurve> harmonics_;

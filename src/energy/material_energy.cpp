@@ -48,33 +48,42 @@ MaterialEnergy::MaterialEnergy(const std::vector<Brdf<double>>& material, const 
   if (compensations.size() != lobes.size()) compensations.clear();  // a lambert or a mirror loses nothing
 }
 
+ReflectanceCurve::Largest lobes_reflectance(const MaterialEnergy& energy, const std::vector<Brdf<double>>& lobes,
+                                            const SpectralSurface& surface, std::size_t wavelength,
+                                            double theta_max_deg) {
+  static const std::vector<double> incidences = cosines();
+  ReflectanceCurve::Largest found;
+  for (const double cosine : incidences) {
+    if (cosine < cos_deg(theta_max_deg)) continue;
+    double sum = 0;
+    for (std::size_t j = 0; j < lobes.size(); ++j)
+      if (lobes[j].ks > 0) sum += lobe_total(energy, j, lobes[j], surface, wavelength, cosine);
+    if (sum > found.value) found = {sum, cosine};
+  }
+  return found;
+}
+
 EnergyBalance energy_balance(const MaterialEnergy& energy, const SampledLobes& materials,
                              const SurfaceSamples& samples) {
   EnergyBalance balance;
   balance.diffuse_least = std::numeric_limits<double>::infinity();
-  std::vector<double> incidences = cosines();
   const auto unbounded = [](const Brdf<double>& one) { return one.ks > 0 && unbounded_at_grazing(one.lobe); };
   for (const auto& lobes : materials)
     balance.bounded = balance.bounded && std::none_of(lobes.begin(), lobes.end(), unbounded);
-  if (!balance.bounded)
-    std::erase_if(incidences, [](double cosine) { return cosine < cos_deg(LobeEnergy::kUnboundedTo_deg); });
   for (std::size_t w = 0; w < samples.surface.size(); ++w) {
     const std::vector<Brdf<double>>& lobes = materials[materials.size() > 1 ? w : 0];
     const double rho_d = lobes[0].diffuse_times_r0() ? samples.surface.interfaces[w].r0() : 1,
                  diffuse = lobes[0].kd * rho_d;
-    balance.diffuse_least = std::min(balance.diffuse_least, diffuse);
     double error = 0;
     for (std::size_t j = 0; j < lobes.size(); ++j) error += lobes[j].ks * energy.lobes[j].error();
+    const auto largest =
+        lobes_reflectance(energy, lobes, samples.surface, w, balance.bounded ? 90 : LobeEnergy::kUnboundedTo_deg);
     balance.error = std::max(balance.error, error + 1e-12);
-    for (const double cosine : incidences) {
-      double lobe_sum = 0;
-      for (std::size_t j = 0; j < lobes.size(); ++j)
-        if (lobes[j].ks > 0) lobe_sum += lobe_total(energy, j, lobes[j], samples.surface, w, cosine);
-      balance.lobes_most = std::max(balance.lobes_most, lobe_sum);
-      if (diffuse + lobe_sum > balance.total)
-        balance.total = diffuse + lobe_sum, balance.theta_deg = std::acos(cosine) * 180 / kPi<double>,
-        balance.wavelength_nm = samples.wavelength_nm[w];
-    }
+    balance.diffuse_least = std::min(balance.diffuse_least, diffuse);
+    balance.lobes_most = std::max(balance.lobes_most, largest.value);
+    if (diffuse + largest.value > balance.total)
+      balance.total = diffuse + largest.value, balance.theta_deg = std::acos(largest.cos_theta) * 180 / kPi<double>,
+      balance.wavelength_nm = samples.wavelength_nm[w];
   }
   return balance;
 }

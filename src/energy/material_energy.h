@@ -32,6 +32,11 @@ struct EnergyBalance {
   std::string described() const;
 };
 
+/// The largest of Σ ks·(E + delta + compensation) at one wavelength, over incidences to `theta_max_deg` and azimuths.
+ReflectanceCurve::Largest lobes_reflectance(const MaterialEnergy& energy, const std::vector<Brdf<double>>& lobes,
+                                            const SpectralSurface& surface, std::size_t wavelength,
+                                            double theta_max_deg = 90);
+
 /// `materials`: the lobes at each wavelength (kd and ks may differ), or one list for all.
 EnergyBalance energy_balance(const MaterialEnergy& energy, const SampledLobes& materials,
                              const SurfaceSamples& samples);

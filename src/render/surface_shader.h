@@ -202,8 +202,9 @@ class SurfaceShader {
     if (lobe.compensation->wavelengths() == 1) {
       f += lobe.compensated * shape(0);
     } else {
-      std::vector<double> shapes;
-      for (std::size_t w = 0; w < lobe.compensation->wavelengths(); ++w) shapes.push_back(double(shape(w)));
+      std::array<double, N * kLane> shapes{};
+      const std::size_t count = lobe.compensation->wavelengths();
+      for (std::size_t w = 0; w < shapes.size(); ++w) shapes[w] = w < count ? double(shape(w)) : shapes[count - 1];
       f += lobe.compensated * Lanes::from(shapes);
     }
   }

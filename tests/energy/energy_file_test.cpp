@@ -85,6 +85,9 @@ TEST_CASE("table writes a table, lookup finds E in it and in the bundled ones", 
                                     "shadowing=v-cavity", "--n", "1.5", "--angles", "0,60"})})
     for (int i = 0; i < 2; ++i)
       CHECK(json["E"][i]["E"].get<double>() == Approx(limits["E"][i]["E"].get<double>()).margin(1e-4));
+  check_refused(scratch, {"table", "lookup", "ward-1992", "--set", "alpha=0.2", "--angles", "89"}, "without bound");
+  CHECK(json_of({"table", "lookup", "ward-1992", "--set", "alpha=0.2", "--angles", "60"})["E_mean"].is_null());
+  check_refused(scratch, {"table", "limits", "ward-1992", "--set", "alpha=0.2", "--spectrum"}, "without bound");
   check_refused(scratch, {"table", "lookup", path, "--n", "1.5"}, "width is not given");
   check_refused(scratch, {"table", "lookup", path, "--set", "m=3", "--n", "1.5"}, "outside the table");
   check_refused(scratch, {"table", "ward-1992", "--out", scratch.path("W.exr")}, "has no table");

@@ -22,6 +22,12 @@ const EnergyTable& bundled(const char* family) {
   return *table;
 }
 
+NodeValues white() {
+  NodeValues r;
+  r.fill(1);
+  return r;
+}
+
 /// Of the materials whose R the nodes hold.
 std::vector<Interface<double>> surfaces(double step_nm) {
   std::vector<Interface<double>> held{perfect_interface<double>()};
@@ -64,6 +70,18 @@ TEST_CASE("a table agrees with quadratures that know neither nodes nor grid", "[
         }
       }
   }
+}
+
+TEST_CASE("tables hold closed forms: GGX of alpha 1 at the normal, Maillot's lobe of gentle slopes",
+          "[energy][tables]") {
+  // D = 1/π at alpha = 1: E = 2∫ G(2θ) cosθ sinθ dθ to 45°, with c = cos 2θ the integral of G over c, by half. Smith: G = 2c/(1 + c);
+  // V-cavities: G = min(1, 2c).
+  for (const char* smith : {"ggx-smith-correlated", "ggx-smith-separable"})
+    CHECK(std::abs(bundled(smith).curve(1, white())(1) - (1 - std::log(2))) <= EnergyTable::kError);
+  CHECK(std::abs(bundled("ggx-v-cavity").curve(1, white())(1) - 0.375) <= EnergyTable::kError);
+  // √(2π)·m·(1 - …) as m -> 0 at the normal.
+  CHECK(bundled("pseudo-realistic").curve(0.01, white())(1) ==
+        Approx(kSqrt2Pi<double> * 0.01 / std::sqrt(2)).margin(EnergyTable::kError));
 }
 
 TEST_CASE("lookups in lanes are those one by one; no number in, none out", "[energy][tables]") {

@@ -1,12 +1,14 @@
 // Energy in pictures: materials that gain are refused, and what single scattering loses can be given back.
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
 #include "catch.h"
+#include "mean_radiance.h"
 #include "render/render.h"
 
 using namespace gonio;
+using gonio::test::Mean;
+using gonio::test::mean_of;
 
 namespace {
 
@@ -39,15 +41,6 @@ Scene furnace(SceneMaterial material) {
   scene.environment = {1, "constant"};
   scene.wavelengths_nm = {550};
   return scene;
-}
-
-struct Mean {
-  double value, error;
-};
-Mean mean_of(const RenderResult& result) {
-  const auto sum = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); };
-  const auto count = static_cast<double>(result.image.radiance.size());
-  return {sum(result.image.radiance) / count, std::sqrt(sum(result.variance)) / count};
 }
 
 std::string refusal(const Scene& scene) {

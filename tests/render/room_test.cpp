@@ -2,15 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "catch.h"
+#include "mean_radiance.h"
 #include "render/random.h"
 #include "render/rays.h"
 #include "render/render.h"
 #include "statistics.h"
 
 using namespace gonio;
+using gonio::test::Mean;
+using gonio::test::mean_of;
 using gonio::test::Normality;
 
 namespace {
@@ -35,16 +37,6 @@ RenderSettings settings(int spp, int max_depth = 1000, Strategy strategy = Strat
   chosen.max_depth = max_depth;
   chosen.strategy = strategy;
   return chosen;
-}
-
-/// Mean over the image, and its standard error.
-struct Mean {
-  double value, error;
-};
-Mean mean_of(const RenderResult& result) {
-  const auto sum = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); };
-  const auto count = static_cast<double>(result.image.radiance.size());
-  return {sum(result.image.radiance) / count, std::sqrt(sum(result.variance)) / count};
 }
 
 /// Pixels against one truth.
